@@ -1,0 +1,29 @@
+// How a part comes to rest against a straight wall: stable poses and their probabilities, in closed form.
+#pragma once
+
+#include <vector>
+
+#include "analysis/geometry/polygon.hpp"
+
+namespace formotion {
+
+struct WallPose {
+  double orientation_rad = 0;  // rotation from the outline as given, [0, 2 pi)
+  double com_wall_mm = 0;      // height of the centre of mass over the wall
+  double basin_rad = 0;        // width of the range of orientations that settle into it
+  Point edge_from, edge_to;    // the resting edge, in the outline's frame, counter-clockwise
+};
+
+// The part is pressed against the wall y = 0 (it lies in y >= 0) and dragged along +x, with friction f at the wall.
+// points: the part's outline (its convex hull counts), relative to the centre of mass.
+// Frictionless, the poses are the local minima of the radius function r(phi) = max over points of p . u(phi), and its
+// local maxima bound the basins (Goldberg 1993). With friction the wall's force leans back by atan f, so the line through
+// the centre of mass that must meet the resting edge does (derived: moment balance under steady sliding).
+// A line through an edge's end (within tolerance_mm) is not stable: that pose has no basin of its own on that side.
+// Ascending orientation; basins sum to 2 pi. Empty if the centre of mass lies outside the hull so that it never settles.
+std::vector<WallPose> wall_poses(const Loop& points, double friction, double tolerance_mm = 1e-9);
+
+// Poses that a rotation by 2 pi / order maps onto each other become one, of the least orientation.
+std::vector<WallPose> merged_by_symmetry(const std::vector<WallPose>& poses, int order);
+
+}  // namespace formotion

@@ -1,0 +1,67 @@
+// What the feeder application says of one design.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/geometry/polygon.hpp"
+
+namespace formotion::feeder {
+
+enum class Outcome { Undecided, Delivered, Rejected, Jammed, Ambiguous };
+const char* name(Outcome outcome);
+
+struct Violation {
+  std::string what, where;
+  double by = 0;
+};
+
+struct Decision {
+  int feature = 0;  // index in the design
+  double x_mm = 0;  // the centre of mass's position along the track at the deciding instant
+};
+
+struct PoseResult {
+  std::string aspect;
+  double orientation_rad = 0;
+  double prior = 0;
+  Outcome outcome = Outcome::Undecided;
+  std::optional<double> exit_orientation_rad;  // of delivered poses
+  std::optional<double> margin_mm;             // delivered: the least margin; lost: the depth of the loss
+  std::optional<double> unsupported_mm;        // lost: travel with negative margin at the deciding feature
+  std::optional<double> tip_mm;                // lost: travel in which the nose drops by 1 mm
+  std::optional<Decision> decided_by;          // none where the plain track decides
+  bool may_catch = false;                      // lost, but the nose may land on the void's far edge
+  bool marginal = false;                       // decided by less than kMarginal_mm: the outcome means nothing
+  std::string reason;                          // one sentence for people: why this outcome
+};
+
+struct Metrics {
+  double efficiency = 0;
+  std::optional<double> purity;  // none where nothing is delivered
+  double jam_probability = 0;
+  std::optional<double> tolerance_mm, margin_mm;
+  double length_mm = 0;
+  int feature_count = 0;
+  std::optional<double> feed_rate_per_min;
+};
+
+// The track as it would be cut, for drawings.
+struct PlacedFeature {
+  std::string type;
+  double start_mm = 0, end_mm = 0;
+  std::vector<Polygon> voids_mm;  // clipped to the strip, world frame
+  std::vector<std::pair<std::string, double>> dimensions;  // literal parameters, contract names
+};
+
+struct FeederEvaluation {
+  bool feasible = false;
+  std::vector<Violation> violations;
+  std::vector<std::string> warnings;
+  Metrics metrics;
+  std::vector<PoseResult> poses;
+  int goal_pose = -1;  // index into poses; -1 where no pose is the goal
+};
+
+}  // namespace formotion::feeder

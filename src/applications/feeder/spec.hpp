@@ -1,0 +1,102 @@
+// A feeder problem as asked for: the part, the track's environment, the features with expressions in the
+// variables, the goal. Filled by io, read by the feeder application. mm, rad, s.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "analysis/geometry/polygon.hpp"
+#include "problem/affine.hpp"
+#include "problem/problem.hpp"
+
+namespace formotion::feeder {
+
+struct LayerSpec {
+  double from_mm = 0;  // height range above the track
+  double to_mm = 0;
+  AffineLoop outline_mm;
+  std::vector<AffineLoop> holes_mm;
+};
+
+// One way to lie: an outline as written in the file, seen from above.
+struct AspectSpec {
+  std::string name;  // "up", "down" or the user's
+  AffineLoop outline_mm;
+  std::vector<AffineLoop> holes_mm;
+  double height_mm = 0;                  // the part's thickness in this aspect
+  std::optional<Point> com_mm;           // default: the centroid (of the volume where there are layers)
+  std::optional<double> com_height_mm;   // above the track; default: half of height_mm
+  double probability = 1;
+  std::vector<LayerSpec> layers;  // ascending; the first is the footprint; empty: the outline at all heights
+};
+
+struct PartSpec {
+  std::vector<AspectSpec> aspects;  // probabilities sum to 1
+};
+
+struct Environment {
+  double track_width_mm = 0;
+  double wall_friction = 0.2;
+  double drive_rad = -0.52359877559829887;  // -30 degrees
+  double conveying_speed_mm_s = 50;
+  double tilt_rad = 0;
+  std::optional<double> spacing_mm;             // default: the part's diameter
+  std::optional<double> radius_of_gyration_mm;  // default: the area's
+  double settling_friction = 0;
+};
+
+struct Balcony { Affine width_mm, length_mm; };
+struct Gap { Affine length_mm; };
+struct Canyon { Affine from_mm, to_mm, length_mm; };
+struct Slot { Affine from_mm, to_mm, length_mm; };
+struct Cutout { AffineLoop polygon_mm; };
+struct DishOut { Affine depth_mm, length_mm; };
+struct Scallop { Affine depth_mm, half_angle_rad; };
+struct Drawing {
+  std::string file;  // as written in the problem file
+  std::vector<Loop> voids_mm, walls_mm;
+};
+struct Wiper { Affine height_mm; };
+struct HoldDown { Affine height_mm, length_mm; };
+
+struct FeatureSpec {
+  std::variant<Balcony, Gap, Canyon, Slot, Cutout, DishOut, Scallop, Drawing, Wiper, HoldDown> shape;
+  std::optional<Affine> at_mm;
+};
+using DesignSpec = std::vector<FeatureSpec>;
+
+// The contract's name of the feature's type ("balcony", "dish-out", ...).
+std::string type_name(const FeatureSpec& feature);
+
+struct Goal {
+  bool one_pose = false;  // deliver the delivered pose of largest prior, whichever it is
+  std::string aspect;     // or this one; "any" for all aspects
+  double orientation_rad = 0;
+  bool require_tip = false;
+};
+
+struct Manufacture {
+  std::optional<double> cutter_radius_mm, min_web_mm;
+};
+
+struct Uncertainty {
+  double outline_mm = 0, com_mm = 0, feature_mm = 0;  // half-widths
+  std::map<std::string, std::pair<double, double>> intervals;  // as written: "wall_friction", "drive_deg", ...
+  bool any() const { return outline_mm > 0 || com_mm > 0 || feature_mm > 0 || !intervals.empty(); }
+};
+
+struct FeederSpec {
+  PartSpec part;
+  Environment environment;
+  Goal goal;
+  Manufacture manufacture;
+  Uncertainty uncertainty;
+  std::vector<Variable> variables;
+  std::vector<DesignSpec> designs;  // one per topology
+  std::vector<Objective> objectives;
+};
+
+}  // namespace formotion::feeder

@@ -1,0 +1,38 @@
+// Problem files and design files: JSON in, specifications out. The contract is docs/problem-format.md.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "applications/feeder/spec.hpp"
+#include "io/input_error.hpp"
+
+namespace formotion {
+
+struct SearchSpec {
+  std::int64_t evaluations = 20000;
+  std::uint64_t seed = 1;
+};
+
+struct ProblemFile {
+  std::string path;  // as given
+  std::string name;
+  std::string slug;  // name made fit for a folder: "el bracket" -> "el_bracket"
+  std::string kind;
+  feeder::FeederSpec feeder;
+  SearchSpec search;
+  std::string canonical;  // the problem as run: canonical JSON text, files it refers to written into it as outlines
+};
+
+// Throws InputError with every issue of the file. Files that it names are read relative to it.
+ProblemFile read_problem_file(const std::string& path);
+// The same from text (path is for messages and relative files): what fuzzing feeds.
+ProblemFile parse_problem(const std::string& text, const std::string& path);
+
+// A design file ({"features": [...]}: an entry of pareto.json or designs/ID.json is one) replaces the problem's
+// topologies by this one; its optional "values" are variables' values.
+void apply_design_file(ProblemFile& problem, const std::string& path, std::vector<std::pair<std::string, double>>& values);
+
+}  // namespace formotion
