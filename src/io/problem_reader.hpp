@@ -1,0 +1,32 @@
+// The pieces of a problem file, one function a subject; issues gather in the list.
+#pragma once
+
+#include "applications/feeder/spec.hpp"
+#include "io/json_reader.hpp"
+
+namespace formotion {
+
+// What the pieces share.
+struct ReadContext {
+  IssueList& issues;
+  std::string folder;              // files are named relative to it
+  std::vector<std::string> names;  // of the variables
+  nlohmann::ordered_json& canonical;  // the document, with files replaced by what they hold
+};
+
+feeder::PartSpec read_part(const nlohmann::ordered_json& value, ReadContext& context);
+// features: the array of a design; canonical: the same array in the canonical document.
+feeder::DesignSpec read_features(const nlohmann::ordered_json& features, const std::string& pointer, ReadContext& context,
+                                 nlohmann::ordered_json& canonical);
+feeder::Environment read_environment(const nlohmann::ordered_json* value, ReadContext& context);
+feeder::Goal read_goal(const nlohmann::ordered_json& value, const feeder::PartSpec& part, ReadContext& context);
+
+AffineLoop read_loop(const nlohmann::ordered_json& value, const std::string& pointer, ReadContext& context);
+std::vector<AffineLoop> read_loops(const nlohmann::ordered_json* value, const std::string& pointer, ReadContext& context);
+Loop constant_loop(const AffineLoop& loop);  // the constants of its expressions
+AffineLoop literal_loop(const Loop& loop);
+bool is_literal(const AffineLoop& loop);
+nlohmann::ordered_json loop_json(const Loop& loop);
+std::string resolved(const std::string& file, const ReadContext& context);
+
+}  // namespace formotion
