@@ -27,7 +27,8 @@ Affine sum(const Affine& a, const Affine& b) {
   Affine result = a;
   result.constant += b.constant;
   for (const auto& [index, coefficient] : b.terms) {
-    const auto at = std::lower_bound(result.terms.begin(), result.terms.end(), index, [](const auto& t, int i) { return t.first < i; });
+    const auto at = std::lower_bound(result.terms.begin(), result.terms.end(), index,
+                                     [](const auto& t, int i) { return t.first < i; });
     if (at != result.terms.end() && at->first == index) {
       at->second += coefficient;
     } else {
@@ -37,13 +38,15 @@ Affine sum(const Affine& a, const Affine& b) {
   return result;
 }
 
-// Recursive descent: sum = product {(+|-) product}; product = factor {(*|/) factor}; factor = [+|-] (number|name|(sum)).
+// Recursive descent: sum = product {(+|-) product}; product = factor {(*|/) factor}; factor = [+|-]
+// (number|name|(sum)).
 class Parser {
  public:
   Parser(const std::string& text, const std::vector<std::string>& names) : text_(text), names_(names) {}
 
   Affine run() {
-    if (text_.size() > kLongest) throw Refused("an expression of more than " + std::to_string(kLongest) + " characters");
+    if (text_.size() > kLongest)
+      throw Refused("an expression of more than " + std::to_string(kLongest) + " characters");
     Affine result = parse_sum();
     if (peek() != '\0') throw Refused("'" + text_.substr(at_, 20) + "' after the end of the expression");
     bool finite = std::isfinite(result.constant);
@@ -112,7 +115,9 @@ class Parser {
       return scaled({value, {}}, sign);
     }
     std::size_t end = at_;
-    const auto in_name = [](char x) { return (x >= 'a' && x <= 'z') || (x >= 'A' && x <= 'Z') || (x >= '0' && x <= '9') || x == '_' || x == '.'; };
+    const auto in_name = [](char x) {
+      return (x >= 'a' && x <= 'z') || (x >= 'A' && x <= 'Z') || (x >= '0' && x <= '9') || x == '_' || x == '.';
+    };
     while (end < text_.size() && in_name(text_[end])) ++end;
     if (end == at_) throw Refused(c == '\0' ? "an expression that ends early" : "'" + text_.substr(at_, 20) + "'");
     const std::string name = text_.substr(at_, end - at_);
@@ -133,9 +138,7 @@ class Parser {
 std::variant<Affine, std::string> parse_expression(const std::string& text, const std::vector<std::string>& names) {
   try {
     return Parser(text, names).run();
-  } catch (const Refused& refused) {
-    return std::string(refused.what());
-  }
+  } catch (const Refused& refused) { return std::string(refused.what()); }
 }
 
 }  // namespace formotion

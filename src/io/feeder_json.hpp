@@ -14,6 +14,7 @@ using OrderedJson = nlohmann::ordered_json;
 OrderedJson evaluation_json(const feeder::FeederProblem& problem, int topology, std::span<const double> values);
 
 OrderedJson metrics_json(const feeder::Metrics& metrics);
+OrderedJson violations_json(const std::vector<feeder::Violation>& violations);
 OrderedJson pose_json(const feeder::PoseResult& pose);
 // The values of the variables that a topology uses, by name; values are of all the problem's variables.
 OrderedJson values_json(const feeder::FeederProblem& problem, int topology, std::span<const double> values);

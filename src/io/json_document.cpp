@@ -13,9 +13,7 @@ constexpr std::uintmax_t kLargestFile = 50u << 20;
 
 std::string escaped(const std::string& key) {
   std::string out;
-  for (const char c : key) {
-    out += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
-  }
+  for (const char c : key) { out += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c); }
   return out;
 }
 
@@ -53,7 +51,9 @@ class Builder final : public nlohmann::json_sax<Json> {
     }
     const bool range = dynamic_cast<const nlohmann::detail::out_of_range*>(&error) != nullptr;
     const std::string near = token.size() > 40 ? token.substr(0, 40) + "..." : token;
-    const std::string found = position > text_.size() ? "the end of the text" : near.empty() ? "text that is not JSON" : "'" + near + "'";
+    const std::string found = position > text_.size() ? "the end of the text"
+                              : near.empty()          ? "text that is not JSON"
+                                                      : "'" + near + "'";
     issues.push_back({file_, std::to_string(line) + ":" + std::to_string(column), true, found,
                       range ? "a number within the range of doubles" : "valid JSON"});
     return false;
@@ -90,7 +90,8 @@ class Builder final : public nlohmann::json_sax<Json> {
   }
   bool open(Json value) {
     if (levels_.size() >= kDeepest) {
-      issues.push_back({file_, pointer(), false, "more than " + std::to_string(kDeepest) + " levels of nesting", "fewer"});
+      issues.push_back(
+          {file_, pointer(), false, "more than " + std::to_string(kDeepest) + " levels of nesting", "fewer"});
       return false;
     }
     std::string name;
@@ -131,7 +132,8 @@ std::string read_text_file(const std::string& path) {
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) throw InputError({{path, "", false, "no such file", "a file"}});
   if (!std::filesystem::is_regular_file(status)) throw InputError({{path, "", false, "not a regular file", "a file"}});
-  if (std::filesystem::file_size(path, error) > kLargestFile) throw InputError({{path, "", false, "a file of more than 50 MB", "a smaller one"}});
+  if (std::filesystem::file_size(path, error) > kLargestFile)
+    throw InputError({{path, "", false, "a file of more than 50 MB", "a smaller one"}});
   std::ifstream stream(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(stream), {}};
   if (!stream) throw InputError({{path, "", false, "a file that cannot be read", "a readable file"}});

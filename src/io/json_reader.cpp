@@ -13,7 +13,9 @@ std::string number_text(double value) { return nlohmann::json(value).dump(); }
 
 std::string range_text(const Range& range) {
   const bool low = range.min > -kLargestNumber, high = range.max < kLargestNumber;
-  if (low && high) return "a number from " + number_text(range.min) + " to " + number_text(range.max) + (range.open ? ", ends excluded" : "");
+  if (low && high)
+    return "a number from " + number_text(range.min) + " to " + number_text(range.max) +
+           (range.open ? ", ends excluded" : "");
   if (low) return (range.open ? "a number above " : "a number of at least ") + number_text(range.min);
   if (high) return (range.open ? "a number below " : "a number of at most ") + number_text(range.max);
   return "a number";
@@ -28,7 +30,8 @@ std::string described(const nlohmann::ordered_json& value) {
   return text.size() > 60 ? text.substr(0, 57) + "..." : text;
 }
 
-std::optional<double> read_number(const nlohmann::ordered_json& value, const std::string& pointer, const Range& range, IssueList& issues) {
+std::optional<double> read_number(const nlohmann::ordered_json& value, const std::string& pointer, const Range& range,
+                                  IssueList& issues) {
   if (!value.is_number()) {
     issues.add(pointer, described(value), range_text(range));
     return std::nullopt;
@@ -44,8 +47,8 @@ std::optional<double> read_number(const nlohmann::ordered_json& value, const std
   return number;
 }
 
-std::optional<Affine> read_expression(const nlohmann::ordered_json& value, const std::string& pointer, const std::vector<std::string>& names,
-                                      IssueList& issues) {
+std::optional<Affine> read_expression(const nlohmann::ordered_json& value, const std::string& pointer,
+                                      const std::vector<std::string>& names, IssueList& issues) {
   if (value.is_number()) {
     const auto number = read_number(value, pointer, kAny, issues);
     return number ? std::optional<Affine>(Affine{*number, {}}) : std::nullopt;
@@ -62,13 +65,15 @@ std::optional<Affine> read_expression(const nlohmann::ordered_json& value, const
   return std::get<Affine>(parsed);
 }
 
-std::optional<std::string> read_string(const nlohmann::ordered_json& value, const std::string& pointer, IssueList& issues) {
+std::optional<std::string> read_string(const nlohmann::ordered_json& value, const std::string& pointer,
+                                       IssueList& issues) {
   if (value.is_string()) return value.get<std::string>();
   issues.add(pointer, described(value), "a string");
   return std::nullopt;
 }
 
-ObjectReader::ObjectReader(const Json& value, std::string pointer, IssueList& issues) : pointer_(std::move(pointer)), issues_(issues) {
+ObjectReader::ObjectReader(const Json& value, std::string pointer, IssueList& issues)
+    : pointer_(std::move(pointer)), issues_(issues) {
   if (value.is_object()) {
     object_ = &value;
   } else {
@@ -117,7 +122,9 @@ bool ObjectReader::boolean_or(const std::string& key, bool otherwise) {
   return otherwise;
 }
 
-void ObjectReader::ignore(const std::vector<std::string>& keys) { known_.insert(known_.end(), keys.begin(), keys.end()); }
+void ObjectReader::ignore(const std::vector<std::string>& keys) {
+  known_.insert(known_.end(), keys.begin(), keys.end());
+}
 
 void ObjectReader::finish() {
   if (!object_) return;

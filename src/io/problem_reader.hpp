@@ -20,6 +20,8 @@ feeder::DesignSpec read_features(const nlohmann::ordered_json& features, const s
                                  nlohmann::ordered_json& canonical);
 feeder::Environment read_environment(const nlohmann::ordered_json* value, ReadContext& context);
 feeder::Goal read_goal(const nlohmann::ordered_json& value, const feeder::PartSpec& part, ReadContext& context);
+feeder::Manufacture read_manufacture(const nlohmann::ordered_json* value, ReadContext& context);
+feeder::Uncertainty read_uncertainty(const nlohmann::ordered_json* value, ReadContext& context);
 
 AffineLoop read_loop(const nlohmann::ordered_json& value, const std::string& pointer, ReadContext& context);
 std::vector<AffineLoop> read_loops(const nlohmann::ordered_json* value, const std::string& pointer, ReadContext& context);
@@ -27,6 +29,8 @@ Loop constant_loop(const AffineLoop& loop);  // the constants of its expressions
 AffineLoop literal_loop(const Loop& loop);
 bool is_literal(const AffineLoop& loop);
 nlohmann::ordered_json loop_json(const Loop& loop);
+nlohmann::ordered_json loops_json(const std::vector<Loop>& loops);
+Affine in_radians(Affine degrees);
 std::string resolved(const std::string& file, const ReadContext& context);
 
 }  // namespace formotion

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <set>
 
 #include "io/dxf_import.hpp"
@@ -24,8 +25,8 @@ std::optional<Point> read_point(const Json* value, const std::string& pointer, I
 }
 
 // Shapes whose numbers are all literal are checked here; those with variables when they have values.
-void check_shape(const AffineLoop& outline, const std::vector<AffineLoop>& holes, const std::string& pointer, const std::optional<Point>& com,
-                 IssueList& issues) {
+void check_shape(const AffineLoop& outline, const std::vector<AffineLoop>& holes, const std::string& pointer,
+                 const std::optional<Point>& com, IssueList& issues) {
   if (outline.empty() || !is_literal(outline) || !std::all_of(holes.begin(), holes.end(), is_literal)) return;
   Polygon polygon{constant_loop(outline), {}};
   for (const AffineLoop& hole : holes) polygon.holes.push_back(constant_loop(hole));
@@ -33,7 +34,8 @@ void check_shape(const AffineLoop& outline, const std::vector<AffineLoop>& holes
   if (const auto found = defect(polygon)) {
     issues.add(pointer, *found, "a simple polygon with area, holes inside of it and apart");
   } else if (com && locate(convex_hull(polygon.outer), *com, 1e-9) == Side::Outside) {
-    issues.add(pointer, "a centre of mass outside of the outline's hull", "one that some distribution of mass can have");
+    issues.add(pointer, "a centre of mass outside of the outline's hull",
+               "one that some distribution of mass can have");
   }
 }
 
@@ -50,11 +52,14 @@ std::vector<feeder::LayerSpec> read_layers(const Json* value, const std::string&
     feeder::LayerSpec spec;
     spec.from_mm = layer.required_number("from_mm", kNotNegative);
     spec.to_mm = layer.required_number("to_mm", kPositive);
-    if (layer.valid() && spec.to_mm <= spec.from_mm) context.issues.add(at + "/to_mm", std::to_string(spec.to_mm), "a height above from_mm");
+    if (layer.valid() && spec.to_mm <= spec.from_mm)
+      context.issues.add(at + "/to_mm", std::to_string(spec.to_mm), "a height above from_mm");
     if (!layers.empty() && spec.from_mm < layers.back().to_mm) {
-      context.issues.add(at + "/from_mm", std::to_string(spec.from_mm), "a layer that begins where the one before ends, or above");
+      context.issues.add(at + "/from_mm", std::to_string(spec.from_mm),
+                         "a layer that begins where the one before ends, or above");
     }
-    if (const Json* outline = layer.require("outline_mm", "an outline")) spec.outline_mm = read_loop(*outline, at + "/outline_mm", context);
+    if (const Json* outline = layer.require("outline_mm", "an outline"))
+      spec.outline_mm = read_loop(*outline, at + "/outline_mm", context);
     spec.holes_mm = read_loops(layer.find("holes_mm"), at + "/holes_mm", context);
     layer.finish();
     check_shape(spec.outline_mm, spec.holes_mm, at + "/outline_mm", std::nullopt, context.issues);
@@ -103,7 +108,8 @@ void read_shape(ObjectReader& object, feeder::AspectSpec& spec, bool outline_req
   spec.com_height_mm = object.number("com_height_mm", kPositive);
   spec.layers = read_layers(object.find("layers"), object.at("layers"), context);
   if (!spec.layers.empty() && spec.height_mm > 0 && spec.layers.back().to_mm > spec.height_mm + 1e-9) {
-    context.issues.add(object.at("layers"), "layers up to " + std::to_string(spec.layers.back().to_mm) + " mm", "layers within the part's height");
+    context.issues.add(object.at("layers"), "layers up to " + std::to_string(spec.layers.back().to_mm) + " mm",
+                       "layers within the part's height");
   }
   if (spec.outline_mm.empty() && !spec.layers.empty()) spec.outline_mm = spec.layers.front().outline_mm;
   check_shape(spec.outline_mm, spec.holes_mm, object.at("outline_mm"), spec.com_mm, context.issues);
@@ -123,7 +129,8 @@ std::vector<feeder::AspectSpec> read_aspects(const Json& value, ReadContext& con
     const auto name = object.string("name");
     aspect.name = name.value_or("");
     if (object.valid() && (aspect.name.empty() || aspect.name == "any" || !names.insert(aspect.name).second)) {
-      context.issues.add(object.at("name"), name ? "'" + aspect.name + "'" : "nothing", "a name of its own (not 'any')");
+      context.issues.add(object.at("name"), name ? "'" + aspect.name + "'" : "nothing",
+                         "a name of its own (not 'any')");
     }
     aspect.height_mm = object.required_number("height_mm", kPositive, "the height of the part in this aspect");
     aspect.probability = object.required_number("probability", kProbability, "the probability of this aspect");
@@ -161,7 +168,8 @@ feeder::PartSpec read_part(const Json& value, ReadContext& context) {
       Json& canonical = context.canonical["part"];
       canonical.erase("file");
       canonical["outline_mm"] = loop_json(drawn.outer);
-      Json holes = canonical.contains("holes_mm") && canonical["holes_mm"].is_array() ? canonical["holes_mm"] : Json::array();
+      Json holes =
+          canonical.contains("holes_mm") && canonical["holes_mm"].is_array() ? canonical["holes_mm"] : Json::array();
       for (auto hole = drawn.holes.rbegin(); hole != drawn.holes.rend(); ++hole) {
         holes.insert(holes.begin(), loop_json(*hole));
       }
@@ -206,7 +214,8 @@ std::vector<AffineLoop> read_loops(const Json* value, const std::string& pointer
     context.issues.add(pointer, described(*value), "an array of outlines");
     return loops;
   }
-  for (std::size_t i = 0; i < value->size(); ++i) loops.push_back(read_loop((*value)[i], pointer + "/" + std::to_string(i), context));
+  for (std::size_t i = 0; i < value->size(); ++i)
+    loops.push_back(read_loop((*value)[i], pointer + "/" + std::to_string(i), context));
   return loops;
 }
 
@@ -223,13 +232,27 @@ AffineLoop literal_loop(const Loop& loop) {
 }
 
 bool is_literal(const AffineLoop& loop) {
-  return std::all_of(loop.begin(), loop.end(), [](const AffinePoint& p) { return p[0].is_literal() && p[1].is_literal(); });
+  return std::all_of(loop.begin(), loop.end(),
+                     [](const AffinePoint& p) { return p[0].is_literal() && p[1].is_literal(); });
 }
 
 Json loop_json(const Loop& loop) {
   Json json = Json::array();
   for (const Point& p : loop) json.push_back(Json::array({p.x(), p.y()}));
   return json;
+}
+
+Json loops_json(const std::vector<Loop>& loops) {
+  Json json = Json::array();
+  for (const Loop& loop : loops) json.push_back(loop_json(loop));
+  return json;
+}
+
+Affine in_radians(Affine degrees) {
+  constexpr double kRadians = std::numbers::pi / 180;
+  degrees.constant *= kRadians;
+  for (auto& term : degrees.terms) term.second *= kRadians;
+  return degrees;
 }
 
 std::string resolved(const std::string& file, const ReadContext& context) {

@@ -19,8 +19,8 @@ struct RunSummary {
   std::uint64_t seed = 0;
   std::string program_version;
   bool complete = false;
-  std::vector<Evaluated> front;    // non-dominated feasible designs; if there is none, the nearest infeasible ones
-  std::vector<Evaluated> sample;   // at most 3,000 of all evaluations, evenly spaced over the run
+  std::vector<Evaluated> front;      // non-dominated feasible designs; if there is none, the nearest infeasible ones
+  std::vector<Evaluated> sample;     // at most 3,000 of all evaluations, evenly spaced over the run
   std::vector<RunProgress> history;  // one entry a batch
 };
 

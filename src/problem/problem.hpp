@@ -32,6 +32,10 @@ struct Candidate {
 struct Objective {
   std::string name;  // as in problem files: "tolerance_mm"
   bool maximise = true;
+  double resolution = 0;  // smaller differences do not matter to the user: fronts are thinned to it
+  bool stepwise = false;  // takes few values: there is no slope that a local search could follow
+
+  double loss(double value) const { return maximise ? -value : value; }  // to be minimised
 };
 
 // What one evaluation says. Values are finite always: a measure that does not exist counts as the worst one.

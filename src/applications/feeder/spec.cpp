@@ -8,4 +8,12 @@ std::string type_name(const FeatureSpec& feature) {
   return kNames[feature.shape.index()];
 }
 
+std::span<const Objective> known_objectives() {
+  static const std::vector<Objective> kObjectives{
+      {"efficiency", true, 1e-9, true}, {"tolerance_mm", true, 0.01, false},     {"length_mm", false, 0.5, false},
+      {"margin_mm", true, 0.01, false}, {"feed_rate_per_min", true, 0.1, true}, {"feature_count", false, 0, true},
+  };
+  return kObjectives;
+}
+
 }  // namespace formotion::feeder

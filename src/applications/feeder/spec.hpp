@@ -4,6 +4,7 @@
 
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -87,6 +88,9 @@ struct Uncertainty {
   std::map<std::string, std::pair<double, double>> intervals;  // as written: "wall_friction", "drive_deg", ...
   bool any() const { return outline_mm > 0 || com_mm > 0 || feature_mm > 0 || !intervals.empty(); }
 };
+
+// What feeders can be searched for; the first three unless the problem says otherwise.
+std::span<const Objective> known_objectives();
 
 struct FeederSpec {
   PartSpec part;

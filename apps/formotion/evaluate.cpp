@@ -1,0 +1,25 @@
+// evaluate and validate: one look at a problem file.
+#include <iostream>
+
+#include "chosen_design.hpp"
+#include "io/feeder_json.hpp"
+
+namespace formotion {
+
+int run_evaluate(const DesignChoice& choice) {
+  const ChosenDesign chosen = chosen_design(choice);
+  OrderedJson json = evaluation_json(*chosen.problem, chosen.topology, chosen.values);
+  json["topology"] = chosen.topology;
+  json["features"] = features_json(chosen.problem->literal_design(chosen.topology, chosen.values));
+  std::cout << json.dump(2) << "\n";
+  return kDone;
+}
+
+int run_validate(const std::string& problem) {
+  const ProblemFile file = read_problem_file(problem);
+  std::cout << problem << ": good: " << file.kind << ", " << file.feeder.part.aspects.size() << " aspects, "
+            << file.feeder.designs.size() << " topologies, " << file.feeder.variables.size() << " variables\n";
+  return kDone;
+}
+
+}  // namespace formotion

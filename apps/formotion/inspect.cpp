@@ -1,0 +1,80 @@
+// status, report and export: what a stored run says.
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+
+#include "commands.hpp"
+#include "io/input_error.hpp"
+#include "io/suggestion.hpp"
+#include "loaded_run.hpp"
+#include "report/design_files.hpp"
+#include "report/report_data.hpp"
+#include "report/report_page.hpp"
+#include "report/run_files.hpp"
+
+namespace formotion {
+
+int run_status(const std::string& folder, const std::string& format) {
+  const LoadedRun loaded(folder);
+  const RunSummary run = loaded.run();
+  const std::string phase = run.complete ? "complete" : loaded.store.locked_by_another() ? "running" : "stopped";
+  OrderedJson json{{"problem", loaded.file.name},
+                   {"phase", phase},
+                   {"evaluations", run.evaluations},
+                   {"budget", run.budget},
+                   {"seed", run.seed},
+                   {"feasible", run.feasible},
+                   {"front", loaded.state.front().members().size()},
+                   {"best", OrderedJson::object()}};
+  if (!run.history.empty()) {
+    const std::vector<double>& best = run.history.back().best;
+    for (std::size_t k = 0; k < best.size(); ++k) json["best"][loaded.problem.objectives()[k].name] = best[k];
+  }
+  if (format == "json") {
+    std::cout << json.dump(2) << "\n";
+    return kDone;
+  }
+  std::cout << loaded.file.name << ": " << phase << ", " << run.evaluations << " of " << run.budget << " evaluations, "
+            << run.feasible << " feasible, front " << loaded.state.front().members().size() << "\n";
+  for (const auto& [name, value] : json["best"].items()) std::cout << "  best " << name << " " << value << "\n";
+  if (phase == "stopped") std::cout << "  go on with: formotion resume " << folder << "\n";
+  return kDone;
+}
+
+int run_report(const std::string& folder, const std::string& format) {
+  const LoadedRun loaded(folder);
+  const RunSummary run = loaded.run();
+  if (format == "csv") {
+    std::cout << designs_csv(loaded.problem, run);
+  } else if (format == "json") {
+    std::cout << report_data(loaded.file, loaded.problem, run).dump(1) << "\n";
+  } else {
+    write_run_files(folder, loaded.file, loaded.problem, run);
+    std::cout << (std::filesystem::path(folder) / "report.html").string() << "\n";
+  }
+  return kDone;
+}
+
+int run_export(const std::string& folder, const std::string& design, const std::string& format) {
+  const LoadedRun loaded(folder);
+  const std::vector<Evaluated>& all = loaded.state.evaluations();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Evaluated& e) { return design_id(e) == design; });
+  if (found == all.end()) {
+    std::vector<std::string> ids;
+    for (const Evaluated& e : loaded.run().front) ids.push_back(design_id(e));
+    std::string list;
+    for (std::size_t i = 0; i < ids.size() && i < 10; ++i) list += (i ? ", " : "") + ids[i];
+    throw InputError({{folder, "", false, "no design '" + design + "'" + did_you_mean(design, ids),
+                       "an id of the front: " + list + (ids.size() > 10 ? ", ..." : "")}});
+  }
+  if (format == "svg") {
+    std::cout << design_svg(loaded.file, loaded.problem, *found);
+  } else if (format == "dxf") {
+    std::cout << design_dxf(loaded.file, loaded.problem, *found);
+  } else {
+    std::cout << design_json(loaded.problem, *found).dump(1) << "\n";
+  }
+  return kDone;
+}
+
+}  // namespace formotion

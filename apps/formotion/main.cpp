@@ -1,0 +1,117 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <iostream>
+
+#include "commands.hpp"
+#include "io/input_error.hpp"
+#include "optimize/run_store.hpp"
+
+namespace {
+
+using namespace formotion;
+
+void add_run_options(CLI::App& command, RunOptions& options, std::string& log_format) {
+  command.add_option("--threads", options.threads, "threads (0: one per core)")->check(CLI::Range(0, 4096));
+  command.add_option("--log-format", log_format, "progress on stderr: text or json")
+      ->check(CLI::IsMember({"text", "json"}));
+}
+
+void add_design_options(CLI::App& command, DesignChoice& choice) {
+  command.add_option("problem", choice.problem, "problem file")->required();
+  command.add_option("--design", choice.design, "design file: takes the place of the problem's designs");
+  command.add_option("--set", choice.settings, "NAME=VALUE: a variable's value")->expected(1)->take_all();
+  command.add_option("--topology", choice.topology, "which of the problem's topologies (default: 0)")
+      ->check(CLI::Range(0, 1000000));
+}
+
+int usage_error(const CLI::ParseError& error) {
+  std::string text = error.what();
+  for (char& c : text) {
+    if (c == '\n') c = ' ';
+  }
+  std::cerr << "error: " << text << " (formotion --help lists the commands)\n";
+  return kBadInput;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "Formotion designs tracks that let one pose of a part through.\n"
+      "Exit codes: 0 done, 2 bad input, 3 no feasible design, 4 stopped by a signal (resume goes on), 1 a bug.",
+      "formotion"};
+  app.set_version_flag("--version", "formotion " FORMOTION_VERSION);
+  app.require_subcommand(1);
+
+  RunOptions run;
+  DesignChoice choice;
+  std::string folder, design_id, status_format = "text", report_format = "html", export_format = "json",
+                                 log_format = "text", engine = "local";
+  std::function<int()> command;
+
+  CLI::App* optimize = app.add_subcommand("optimize", "search a problem's designs; writes a run's folder");
+  optimize->add_option("problem", run.problem, "problem file")->required();
+  optimize->add_option("--out", run.out, "the run's folder (default: results/NAME)");
+  optimize->add_option("--evaluations", run.evaluations, "how many designs to score")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1000000000}));
+  optimize->add_option("--seed", run.seed, "seed of the search");
+  optimize->add_option("--engine", engine, "what scores designs: local")->check(CLI::IsMember({"local"}));
+  optimize->add_flag("--overwrite", run.overwrite, "replace a run that is in the folder");
+  add_run_options(*optimize, run, log_format);
+  optimize->callback([&] { command = [&] { return run_optimize(run); }; });
+
+  CLI::App* resume = app.add_subcommand("resume", "go on with a stopped run");
+  resume->add_option("folder", folder, "the run's folder")->required();
+  add_run_options(*resume, run, log_format);
+  resume->callback([&] { command = [&] { return run_resume(folder, run); }; });
+
+  CLI::App* status = app.add_subcommand("status", "how far a run is, also while it runs");
+  status->add_option("folder", folder, "the run's folder")->required();
+  status->add_option("--format", status_format, "text or json")->check(CLI::IsMember({"text", "json"}));
+  status->callback([&] { command = [&] { return run_status(folder, status_format); }; });
+
+  CLI::App* report = app.add_subcommand("report", "what a run found: writes report.html, or prints json or csv");
+  report->add_option("folder", folder, "the run's folder")->required();
+  report->add_option("--format", report_format, "html, json or csv")->check(CLI::IsMember({"html", "json", "csv"}));
+  report->callback([&] { command = [&] { return run_report(folder, report_format); }; });
+
+  CLI::App* export_ = app.add_subcommand("export", "print one design of a run as a file");
+  export_->add_option("folder", folder, "the run's folder")->required();
+  export_->add_option("--design", design_id, "the design's id")->required();
+  export_->add_option("--format", export_format, "json, svg or dxf")->check(CLI::IsMember({"json", "svg", "dxf"}));
+  export_->callback([&] { command = [&] { return run_export(folder, design_id, export_format); }; });
+
+  CLI::App* evaluate = app.add_subcommand("evaluate", "score one design: JSON on stdout");
+  add_design_options(*evaluate, choice);
+  evaluate->callback([&] { command = [&] { return run_evaluate(choice); }; });
+
+  CLI::App* query = app.add_subcommand("query", "answer questions about configurations: JSON lines in, JSON lines out");
+  add_design_options(*query, choice);
+  query->callback([&] { command = [&] { return run_query(choice); }; });
+
+  CLI::App* validate = app.add_subcommand("validate", "check a problem file");
+  validate->add_option("problem", run.problem, "problem file")->required();
+  validate->callback([&] { command = [&] { return run_validate(run.problem); }; });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& help) { return app.exit(help); } catch (const CLI::CallForVersion& version) {
+    return app.exit(version);
+  } catch (const CLI::ParseError& error) { return usage_error(error); }
+  run.json_log = log_format == "json";
+
+  try {
+    return command();
+  } catch (const InputError& error) {
+    std::cerr << error.what() << "\n";
+    return kBadInput;
+  } catch (const StoreError& error) {
+    std::cerr << "error: " << error.what() << "\n";
+    return kBadInput;
+  } catch (const std::exception& error) {
+    std::cerr << "bug: " << error.what() << " (please report it with the problem file)\n";
+    return kBug;
+  }
+}

@@ -1,0 +1,76 @@
+// optimize and resume: a search with progress, that a signal stops cleanly.
+#include <atomic>
+#include <csignal>
+#include <filesystem>
+#include <iostream>
+
+#include "commands.hpp"
+#include "optimize/search.hpp"
+#include "progress.hpp"
+#include "report/run_files.hpp"
+
+namespace formotion {
+namespace {
+
+std::atomic<bool> stop_asked{false};
+
+void on_signal(int signal) {
+  stop_asked = true;
+  std::signal(signal, SIG_DFL);  // a second one ends the process at once
+}
+
+int search_and_write(RunStore& store, RunState& state, const ProblemFile& file, const feeder::FeederProblem& problem,
+                     const std::string& folder, const RunOptions& options) {
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  Progress progress(problem, store.identity().budget, state, options.json_log);
+  SearchOptions search_options;
+  search_options.budget = {store.identity().budget, store.identity().seed};
+  search_options.threads = options.threads;
+  search_options.stop = &stop_asked;
+  search_options.after_batch = [&](const RunState& now) { progress.show(now); };
+  const SearchEnd end = search(problem, state, &store, search_options);
+  if (end == SearchEnd::Stopped) {
+    progress.say("stopped after " + std::to_string(state.evaluations().size()) +
+                 " evaluations; go on with: formotion resume " + folder);
+    return kStopped;
+  }
+  const RunSummary run = summary(state, store.identity(), true);
+  write_run_files(folder, file, problem, run);
+  const bool feasible = run.feasible > 0;
+  std::string last = std::to_string(run.evaluations) + " evaluations, " + std::to_string(run.feasible) + " feasible; ";
+  last += feasible ? std::to_string(run.front.size()) + " designs on the front"
+                   : "no feasible design: the nearest ones and what is wrong with them are in the report";
+  if (end == SearchEnd::NothingNew) last += "; ended early, since no new candidate was found";
+  progress.say(last);
+  progress.say("report: " + (std::filesystem::path(folder) / "report.html").string());
+  return feasible ? kDone : kNotFeasible;
+}
+
+}  // namespace
+
+int run_optimize(const RunOptions& options) {
+  const ProblemFile file = read_problem_file(options.problem);
+  const feeder::FeederProblem problem(file.feeder);
+  const std::string folder =
+      options.out.empty() ? (std::filesystem::path("results") / file.slug).string() : options.out;
+  const RunIdentity identity{file.canonical, options.problem, FORMOTION_VERSION,
+                             options.evaluations.value_or(file.search.evaluations),
+                             options.seed.value_or(file.search.seed)};
+  RunStore store = RunStore::create(folder, identity, options.overwrite);
+  write_file((std::filesystem::path(folder) / "problem.json").string(), problem_json_text(file, identity));
+  RunState state(problem);
+  return search_and_write(store, state, file, problem, folder, options);
+}
+
+int run_resume(const std::string& folder, const RunOptions& options) {
+  RunStore store = RunStore::open_for_writing(folder, FORMOTION_VERSION);
+  const ProblemFile file = parse_problem(store.identity().problem_text, store.identity().problem_path);
+  const feeder::FeederProblem problem(file.feeder);
+  RunState state(problem);
+  store.load(state);
+  write_file((std::filesystem::path(folder) / "problem.json").string(), problem_json_text(file, store.identity()));
+  return search_and_write(store, state, file, problem, folder, options);
+}
+
+}  // namespace formotion

@@ -1,0 +1,274 @@
+#include "io/problem_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "applications/feeder/feeder_problem.hpp"
+#include "io/json_document.hpp"
+#include "io/problem_reader.hpp"
+#include "io/suggestion.hpp"
+
+namespace formotion {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kMostEvaluations = 1e9;
+constexpr double kLargestSeed = 9007199254740992.0;  // 2^53: JSON numbers of every reader hold it
+
+bool begins_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+bool goes_on_name(char c) { return begins_name(c) || (c >= '0' && c <= '9') || c == '.'; }
+
+std::string slug_of(const std::string& name) {
+  std::string slug;
+  for (const char c : name) {
+    if (goes_on_name(c) || c == '-') {
+      slug += c;
+    } else if (!slug.empty() && slug.back() != '_') {
+      slug += '_';
+    }
+  }
+  while (!slug.empty() && (slug.back() == '_' || slug.back() == '.')) slug.pop_back();
+  while (!slug.empty() && slug.front() == '.') slug.erase(slug.begin());
+  return slug.empty() ? "problem" : slug.substr(0, 100);
+}
+
+std::vector<Variable> read_variables(const Json* value, IssueList& issues) {
+  std::vector<Variable> variables;
+  if (!value) return variables;
+  if (!value->is_object()) {
+    issues.add("/variables", described(*value), "an object: {\"NAME\": {\"min\", \"max\", \"value\"}, ...}");
+    return variables;
+  }
+  for (const auto& [name, bounds] : value->items()) {
+    ObjectReader object(bounds, "/variables/" + name, issues);
+    Variable variable{name, 0, 0, std::nullopt};
+    if (name.empty() || name.size() > 64 || !begins_name(name[0]) ||
+        !std::all_of(name.begin(), name.end(), goes_on_name)) {
+      issues.add(object.pointer(), "the name '" + name + "'", "letters, digits, '_' and '.', beginning with a letter");
+    }
+    variable.min = object.required_number("min", kAny);
+    variable.max = object.required_number("max", kAny);
+    variable.value = object.number("value", kAny);
+    object.finish();
+    if (object.valid() && variable.min > variable.max) {
+      issues.add(object.at("min"), Json(variable.min).dump(), "a number of at most max, " + Json(variable.max).dump());
+    } else if (variable.value && (*variable.value < variable.min || *variable.value > variable.max)) {
+      issues.add(object.at("value"), Json(*variable.value).dump(),
+                 "a number from " + Json(variable.min).dump() + " to " + Json(variable.max).dump());
+    }
+    variables.push_back(std::move(variable));
+  }
+  return variables;
+}
+
+std::vector<Objective> read_objectives(const Json* value, IssueList& issues) {
+  const std::span<const Objective> known = feeder::known_objectives();
+  if (!value) return {known.begin(), known.begin() + 3};
+  std::vector<std::string> names;
+  for (const Objective& objective : known) names.push_back(objective.name);
+  std::vector<Objective> objectives;
+  if (!value->is_array() || value->empty()) {
+    issues.add("/search/objectives", described(*value), "an array of objectives' names");
+    return objectives;
+  }
+  for (std::size_t i = 0; i < value->size(); ++i) {
+    const std::string pointer = "/search/objectives/" + std::to_string(i);
+    const auto name = read_string((*value)[i], pointer, issues);
+    if (!name) continue;
+    const auto found = std::find_if(known.begin(), known.end(), [&](const Objective& o) { return o.name == *name; });
+    if (found == known.end()) {
+      std::string list;
+      for (const std::string& each : names) list += (list.empty() ? "" : ", ") + each;
+      issues.add(pointer, "the unknown objective '" + *name + "'" + did_you_mean(*name, names), "one of " + list);
+    } else if (std::any_of(objectives.begin(), objectives.end(), [&](const Objective& o) { return o.name == *name; })) {
+      issues.add(pointer, "'" + *name + "' again", "each objective once");
+    } else {
+      objectives.push_back(*found);
+    }
+  }
+  return objectives;
+}
+
+std::optional<std::int64_t> whole_number(ObjectReader& object, const std::string& key, double least, double most,
+                                         IssueList& issues) {
+  const Json* value = object.find(key);
+  if (!value) return std::nullopt;
+  const auto number = read_number(*value, object.at(key), {least, most, false}, issues);
+  if (!number) return std::nullopt;
+  if (*number != std::floor(*number)) {
+    issues.add(object.at(key), described(*value), "a whole number");
+    return std::nullopt;
+  }
+  return static_cast<std::int64_t>(*number);
+}
+
+void read_search(const Json* value, ProblemFile& file, IssueList& issues) {
+  if (!value) {
+    file.feeder.objectives = read_objectives(nullptr, issues);
+    return;
+  }
+  ObjectReader object(*value, "/search", issues);
+  file.search.evaluations =
+      whole_number(object, "evaluations", 1, kMostEvaluations, issues).value_or(file.search.evaluations);
+  file.search.seed = static_cast<std::uint64_t>(whole_number(object, "seed", 0, kLargestSeed, issues).value_or(1));
+  file.feeder.objectives = read_objectives(object.find("objectives"), issues);
+  object.finish();
+}
+
+// A topology: {"features": [...]}; a design file may say more of itself.
+feeder::DesignSpec read_design(const Json& value, const std::string& pointer, const std::vector<std::string>& ignored,
+                               ReadContext& context, Json& canonical) {
+  ObjectReader object(value, pointer, context.issues);
+  const Json* features = object.require("features", "an array of features");
+  object.ignore(ignored);
+  object.finish();
+  if (!features) return {};
+  return read_features(*features, pointer + "/features", context, canonical["features"]);
+}
+
+void read_designs(ObjectReader& object, ProblemFile& file, ReadContext& context) {
+  const Json* design = object.find("design");
+  const Json* topologies = object.find("topologies");
+  const Json* grammar = object.find("grammar");
+  const int count = (design != nullptr) + (topologies != nullptr) + (grammar != nullptr);
+  if (count != 1) {
+    if (object.valid())
+      context.issues.add("", count == 0 ? "no design" : "more than one of design, topologies and grammar",
+                         "exactly one of design, topologies and grammar");
+  }
+  if (grammar)
+    context.issues.add("/grammar", "a grammar, which this version does not search", "a design or a list of topologies");
+  if (design) file.feeder.designs.push_back(read_design(*design, "/design", {}, context, context.canonical["design"]));
+  if (!topologies) return;
+  if (!topologies->is_array() || topologies->empty()) {
+    context.issues.add("/topologies", described(*topologies), "an array of designs");
+    return;
+  }
+  for (std::size_t i = 0; i < topologies->size(); ++i) {
+    file.feeder.designs.push_back(read_design((*topologies)[i], "/topologies/" + std::to_string(i), {}, context,
+                                              context.canonical["topologies"][i]));
+  }
+}
+
+// The names that occur in the strings of a value.
+void collect_names(const Json& value, std::set<std::string>& names) {
+  if (value.is_string()) {
+    const std::string& text = value.get_ref<const std::string&>();
+    for (std::size_t i = 0; i < text.size();) {
+      std::size_t end = i + 1;
+      if (begins_name(text[i])) {
+        while (end < text.size() && goes_on_name(text[end])) ++end;
+        names.insert(text.substr(i, end - i));
+      }
+      i = end;
+    }
+  } else if (value.is_structured()) {
+    for (const Json& item : value) collect_names(item, names);
+  }
+}
+
+void check_variables_used(const Json& document, const std::vector<Variable>& variables, IssueList& issues) {
+  std::set<std::string> used;
+  for (const char* key : {"part", "design", "topologies"}) {
+    if (document.contains(key)) collect_names(document[key], used);
+  }
+  for (const Variable& variable : variables) {
+    if (!used.count(variable.name))
+      issues.add("/variables/" + variable.name, "a variable that nothing uses", "one that the designs or the part use");
+  }
+}
+
+void read_kind(ObjectReader& object, ProblemFile& file, IssueList& issues) {
+  object.require("kind", "feeder");
+  const auto kind = object.string("kind");
+  if (!kind || *kind == "feeder") {
+    file.kind = "feeder";
+  } else if (*kind == "assembly" || *kind == "fixture" || *kind == "pallet") {
+    issues.add("/kind", "'" + *kind + "', which this version does not know yet", "feeder");
+  } else {
+    issues.add("/kind",
+               "the unknown kind '" + *kind + "'" + did_you_mean(*kind, {"feeder", "assembly", "fixture", "pallet"}),
+               "feeder");
+  }
+}
+
+}  // namespace
+
+ProblemFile parse_problem(const std::string& text, const std::string& path) {
+  const Json document = parse_json(text, path);
+  IssueList issues{path, {}};
+  Json canonical = document;
+  ProblemFile file;
+  file.path = path;
+  ObjectReader object(document, "", issues);
+  issues.throw_if_any();
+
+  object.require("formotion", "the format's version, 1");
+  const auto version = object.number("formotion", kAny);
+  if (version && *version != 1)
+    issues.add("/formotion", described(document["formotion"]), "1, the only version of the format so far");
+  object.require("name", "the problem's name");
+  file.name = object.string("name").value_or("");
+  if (document.contains("name") && document["name"].is_string() && file.name.empty())
+    issues.add("/name", "an empty name", "a name");
+  file.slug = slug_of(file.name);
+  read_kind(object, file, issues);
+  object.ignore({"run"});  // of problem.json in a run's folder: how it was run
+
+  file.feeder.variables = read_variables(object.find("variables"), issues);
+  ReadContext context{issues, std::filesystem::path(path).parent_path().string(), {}, canonical};
+  for (const Variable& variable : file.feeder.variables) context.names.push_back(variable.name);
+
+  bool part_is_good = false;
+  if (const Json* part = object.require("part", "a part")) {
+    const std::size_t before = issues.issues.size();
+    file.feeder.part = read_part(*part, context);
+    part_is_good = issues.issues.size() == before;
+  }
+  file.feeder.environment = read_environment(object.find("environment"), context);
+  read_designs(object, file, context);
+  if (const Json* goal = object.require("goal", "a goal: {\"deliver\": ...}")) {
+    const std::size_t before = issues.issues.size();
+    file.feeder.goal = read_goal(*goal, file.feeder.part, context);
+    if (part_is_good && issues.issues.size() == before) {
+      if (const auto found = feeder::goal_defect(file.feeder))
+        issues.add("/goal/deliver", (*goal)["deliver"].dump(), *found);
+    }
+  }
+  file.feeder.manufacture = read_manufacture(object.find("manufacture"), context);
+  file.feeder.uncertainty = read_uncertainty(object.find("uncertainty"), context);
+  read_search(object.find("search"), file, issues);
+  object.finish();
+  check_variables_used(document, file.feeder.variables, issues);
+  issues.throw_if_any();
+  file.canonical = canonical.dump(2);
+  return file;
+}
+
+ProblemFile read_problem_file(const std::string& path) { return parse_problem(read_text_file(path), path); }
+
+void apply_design_file(ProblemFile& problem, const std::string& path,
+                       std::vector<std::pair<std::string, double>>& values) {
+  const Json document = parse_json(read_text_file(path), path);
+  IssueList issues{path, {}};
+  Json canonical = document;
+  ReadContext context{issues, std::filesystem::path(path).parent_path().string(), {}, canonical};
+  for (const Variable& variable : problem.feeder.variables) context.names.push_back(variable.name);
+  // What pareto.json and exports say beside the features.
+  const std::vector<std::string> beside{"id",         "topology", "values",     "metrics",   "worst_case",
+                                        "provenance", "feasible", "violations", "label"};
+  problem.feeder.designs = {read_design(document, "", beside, context, canonical)};
+  if (document.is_object() && document.contains("values")) {
+    ObjectReader object(document["values"], "/values", issues);
+    for (const std::string& name : context.names) {
+      if (const auto value = object.number(name, kAny)) values.emplace_back(name, *value);
+    }
+    object.finish();
+  }
+  issues.throw_if_any();
+}
+
+}  // namespace formotion

@@ -1,0 +1,105 @@
+#include "optimize/run_state.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace formotion {
+namespace {
+
+constexpr std::size_t kFrontCapacity = 100;
+constexpr std::size_t kTopologyCapacity = 30;
+constexpr std::size_t kNearCapacity = 30;
+constexpr std::size_t kShownInfeasible = 10;
+
+std::size_t hash_of(const Candidate& candidate) {
+  std::uint64_t hash = 0xcbf29ce484222325u ^ static_cast<std::uint64_t>(candidate.topology);  // FNV-1a over words
+  for (const double value : candidate.values) {
+    hash = (hash ^ std::bit_cast<std::uint64_t>(value + 0.0)) * 0x100000001b3u;
+    hash ^= hash >> 29;
+  }
+  return hash;
+}
+
+std::vector<double> resolutions_of(const std::vector<Objective>& objectives) {
+  std::vector<double> resolutions;
+  for (const Objective& objective : objectives) resolutions.push_back(objective.resolution);
+  return resolutions;
+}
+
+}  // namespace
+
+RunState::RunState(const Problem& problem)
+    : objectives_(problem.objectives().begin(), problem.objectives().end()),
+      front_(resolutions_of(objectives_), kFrontCapacity) {
+  std::vector<double> with_violation = resolutions_of(objectives_);
+  with_violation.push_back(0);
+  near_.assign(problem.topologies().size(), Archive(with_violation, kNearCapacity));
+  fronts_.assign(problem.topologies().size(), Archive(resolutions_of(objectives_), kTopologyCapacity));
+}
+
+const Score* RunState::find(const Candidate& candidate) const {
+  const auto [begin, end] = index_.equal_range(hash_of(candidate));
+  for (auto it = begin; it != end; ++it) {
+    const Candidate& known = evaluations_[it->second].candidate;
+    if (known.topology == candidate.topology && known.values == candidate.values)
+      return &evaluations_[it->second].score;
+  }
+  return nullptr;
+}
+
+void RunState::fold(const std::vector<Trial>& trials, const std::string& provenance, std::int64_t room) {
+  for (const Trial& trial : trials) {
+    if (room <= 0) return;
+    if (find(trial.candidate)) continue;
+    --room;
+    restore({static_cast<std::int64_t>(evaluations_.size()) + 1, trial.candidate, trial.score, provenance});
+  }
+}
+
+void RunState::restore(Evaluated evaluated) {
+  index_.emplace(hash_of(evaluated.candidate), evaluations_.size());
+  const auto topology = static_cast<std::size_t>(evaluated.candidate.topology);
+  std::vector<double> losses = losses_of(evaluated.score);
+  if (evaluated.score.feasible) {
+    ++feasible_;
+    fronts_[topology].offer(evaluated.number, losses);
+    front_.offer(evaluated.number, losses);
+  } else {
+    losses.push_back(evaluated.score.violation);
+    near_[topology].offer(evaluated.number, losses);
+  }
+  evaluations_.push_back(std::move(evaluated));
+}
+
+void RunState::close_batch() {
+  RunProgress progress{
+      static_cast<std::int64_t>(evaluations_.size()), static_cast<std::int64_t>(front_.members().size()), {}};
+  for (std::size_t k = 0; k < objectives_.size() && !front_.members().empty(); ++k) {
+    double least = front_.members().front().losses[k];
+    for (const Archive::Member& member : front_.members()) least = std::min(least, member.losses[k]);
+    progress.best.push_back(objectives_[k].loss(least) + 0.0);
+  }
+  history_.push_back(std::move(progress));
+}
+
+std::vector<Evaluated> RunState::best_designs() const {
+  std::vector<Evaluated> designs;
+  for (const Archive::Member& member : front_.members()) designs.push_back(evaluation(member.number));
+  if (!designs.empty()) return designs;
+  for (const Archive& near : near_) {
+    for (const Archive::Member& member : near.members()) designs.push_back(evaluation(member.number));
+  }
+  std::stable_sort(designs.begin(), designs.end(),
+                   [](const Evaluated& a, const Evaluated& b) { return a.score.violation < b.score.violation; });
+  if (designs.size() > kShownInfeasible) designs.resize(kShownInfeasible);
+  std::sort(designs.begin(), designs.end(), [](const Evaluated& a, const Evaluated& b) { return a.number < b.number; });
+  return designs;
+}
+
+std::vector<double> RunState::losses_of(const Score& score) const {
+  std::vector<double> losses;
+  for (std::size_t k = 0; k < objectives_.size(); ++k) losses.push_back(objectives_[k].loss(score.objectives[k]) + 0.0);
+  return losses;
+}
+
+}  // namespace formotion

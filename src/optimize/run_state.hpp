@@ -1,0 +1,50 @@
+// What a search knows: everything evaluated, the fronts. Grows by folding results in a fixed order.
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "optimize/archive.hpp"
+#include "optimize/run_summary.hpp"
+#include "optimize/search_task.hpp"
+
+namespace formotion {
+
+class RunState final : public KnownScores {
+ public:
+  explicit RunState(const Problem& problem);
+
+  const Score* find(const Candidate& candidate) const override;
+  // Takes the trials of one task in; those known already do not count. At most `room` new ones.
+  void fold(const std::vector<Trial>& trials, const std::string& provenance, std::int64_t room);
+  // Takes in what a store kept.
+  void restore(Evaluated evaluated);
+  void close_batch();  // after the last fold of a batch
+
+  const std::vector<Evaluated>& evaluations() const { return evaluations_; }
+  const Evaluated& evaluation(std::int64_t number) const { return evaluations_[static_cast<std::size_t>(number - 1)]; }
+  std::int64_t feasible_count() const { return feasible_; }
+  const Archive& front() const { return front_; }
+  // The front among one topology's designs: a topology that others dominate today may hold the best ones tomorrow.
+  const Archive& front_of(int topology) const { return fronts_[static_cast<std::size_t>(topology)]; }
+  // Infeasible candidates of a topology that are nearest to being feasible, or better in some objective.
+  const Archive& near(int topology) const { return near_[static_cast<std::size_t>(topology)]; }
+  const std::vector<RunProgress>& history() const { return history_; }
+  std::int64_t batches() const { return static_cast<std::int64_t>(history_.size()); }
+
+  // The front; while nothing is feasible, the nearest designs. Ascending numbers.
+  std::vector<Evaluated> best_designs() const;
+
+ private:
+  std::vector<double> losses_of(const Score& score) const;
+
+  std::vector<Objective> objectives_;
+  std::vector<Evaluated> evaluations_;
+  std::unordered_multimap<std::size_t, std::size_t> index_;  // hash of the candidate -> place in evaluations_
+  std::int64_t feasible_ = 0;
+  Archive front_;
+  std::vector<Archive> fronts_, near_;
+  std::vector<RunProgress> history_;
+};
+
+}  // namespace formotion

@@ -1,0 +1,32 @@
+// The search loop: propose a batch, run it in parallel, fold it in, commit.
+#pragma once
+
+#include <atomic>
+#include <functional>
+
+#include "optimize/proposals.hpp"
+#include "optimize/run_store.hpp"
+
+namespace formotion {
+
+struct SearchOptions {
+  SearchBudget budget;
+  int threads = 0;  // 0: one per core
+  const std::atomic<bool>* stop = nullptr;
+  std::function<void(const RunState&)> after_batch;
+};
+
+enum class SearchEnd {
+  BudgetSpent,
+  NothingNew,  // batches in a row brought no candidate that was not known
+  Stopped,     // told to; the batch under way was dropped
+};
+
+// Goes on from state until the budget is spent. Deterministic for every number of threads, and for every number of
+// stops and goings-on: the next batch depends on what was folded in before alone. store may be null. Exceptions of the
+// problem's score pass through; the state then holds the batches before.
+SearchEnd search(const Problem& problem, RunState& state, RunStore* store, const SearchOptions& options);
+
+RunSummary summary(const RunState& state, const RunIdentity& identity, bool complete);
+
+}  // namespace formotion

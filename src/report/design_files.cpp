@@ -1,0 +1,63 @@
+#include "report/design_files.hpp"
+
+#include <cmath>
+#include <iomanip>
+#include <numbers>
+#include <sstream>
+
+#include "report/track_drawing.hpp"
+
+namespace formotion {
+namespace {
+
+std::string fixed(double value, int digits) {
+  std::ostringstream out;
+  out << std::fixed << std::setprecision(digits) << value;
+  return out.str();
+}
+
+TrackDrawing drawing_of(const ProblemFile& file, const feeder::FeederProblem& problem, const Evaluated& design) {
+  const std::vector<double> values = problem.all_values(design.candidate);
+  const feeder::FeederEvaluation evaluation = problem.evaluate(design.candidate.topology, values);
+  TrackDrawing drawing;
+  drawing.title = file.name + ", design " + design_id(design);
+  drawing.track_width_mm = problem.spec().environment.track_width_mm;
+  drawing.features = problem.place(design.candidate.topology, values);
+  if (evaluation.goal_pose >= 0) {
+    const feeder::PoseResult& goal = evaluation.poses[static_cast<std::size_t>(evaluation.goal_pose)];
+    drawing.notes.push_back("delivers " + goal.aspect + " " + fixed(goal.orientation_rad * 180 / std::numbers::pi, 2) +
+                            " deg, efficiency " + fixed(evaluation.metrics.efficiency, 3));
+  }
+  if (evaluation.metrics.tolerance_mm)
+    drawing.notes.push_back("every edge may be off by " + fixed(*evaluation.metrics.tolerance_mm, 3) + " mm");
+  const double tilt = problem.spec().environment.tilt_rad;
+  if (tilt != 0)
+    drawing.notes.push_back("track tilted by " + fixed(tilt * 180 / std::numbers::pi, 1) + " deg towards the wall");
+  if (!evaluation.feasible) drawing.notes.push_back("NOT FEASIBLE: " + evaluation.violations.front().what);
+  return drawing;
+}
+
+}  // namespace
+
+OrderedJson design_json(const feeder::FeederProblem& problem, const Evaluated& design) {
+  const int topology = design.candidate.topology;
+  const std::vector<double> values = problem.all_values(design.candidate);
+  const OrderedJson evaluation = evaluation_json(problem, topology, values);
+  OrderedJson json{{"id", design_id(design)}, {"topology", topology}};
+  json["label"] = problem.topologies()[static_cast<std::size_t>(topology)].label;
+  json["feasible"] = evaluation["feasible"];
+  json["features"] = features_json(problem.literal_design(topology, values));
+  for (const char* key : {"values", "metrics", "worst_case", "violations"}) json[key] = evaluation[key];
+  json["provenance"] = design.provenance;
+  return json;
+}
+
+std::string design_svg(const ProblemFile& file, const feeder::FeederProblem& problem, const Evaluated& design) {
+  return track_svg(drawing_of(file, problem, design));
+}
+
+std::string design_dxf(const ProblemFile& file, const feeder::FeederProblem& problem, const Evaluated& design) {
+  return track_dxf(drawing_of(file, problem, design));
+}
+
+}  // namespace formotion
