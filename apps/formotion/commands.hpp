@@ -34,6 +34,7 @@ int run_report(const std::string& folder, const std::string& format);
 int run_export(const std::string& folder, const std::string& design, const std::string& format);
 int run_evaluate(const DesignChoice& choice);
 int run_query(const DesignChoice& choice);
-int run_validate(const std::string& problem);
+// folder_only: prints nothing but the folder that optimize would use.
+int run_validate(const std::string& problem, bool folder_only);
 
 }  // namespace formotion

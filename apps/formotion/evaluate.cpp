@@ -15,8 +15,12 @@ int run_evaluate(const DesignChoice& choice) {
   return kDone;
 }
 
-int run_validate(const std::string& problem) {
+int run_validate(const std::string& problem, bool folder_only) {
   const ProblemFile file = read_problem_file(problem);
+  if (folder_only) {
+    std::cout << default_folder(file) << "\n";
+    return kDone;
+  }
   std::cout << problem << ": good: " << file.kind << ", " << file.feeder.part.aspects.size() << " aspects, "
             << file.feeder.designs.size() << " topologies, " << file.feeder.variables.size() << " variables\n";
   return kDone;

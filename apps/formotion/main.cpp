@@ -49,6 +49,7 @@ int main(int argc, char** argv) {
   DesignChoice choice;
   std::string folder, design_id, status_format = "text", report_format = "html", export_format = "json",
                                  log_format = "text", engine = "local";
+  bool folder_only = false;
   std::function<int()> command;
 
   CLI::App* optimize = app.add_subcommand("optimize", "search a problem's designs; writes a run's folder");
@@ -93,7 +94,8 @@ int main(int argc, char** argv) {
 
   CLI::App* validate = app.add_subcommand("validate", "check a problem file");
   validate->add_option("problem", run.problem, "problem file")->required();
-  validate->callback([&] { command = [&] { return run_validate(run.problem); }; });
+  validate->add_flag("--folder", folder_only, "print the folder that optimize would use");
+  validate->callback([&] { command = [&] { return run_validate(run.problem, folder_only); }; });
 
   try {
     app.parse(argc, argv);

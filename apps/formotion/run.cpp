@@ -52,8 +52,7 @@ int search_and_write(RunStore& store, RunState& state, const ProblemFile& file, 
 int run_optimize(const RunOptions& options) {
   const ProblemFile file = read_problem_file(options.problem);
   const feeder::FeederProblem problem(file.feeder);
-  const std::string folder =
-      options.out.empty() ? (std::filesystem::path("results") / file.slug).string() : options.out;
+  const std::string folder = options.out.empty() ? default_folder(file) : options.out;
   const RunIdentity identity{file.canonical, options.problem, FORMOTION_VERSION,
                              options.evaluations.value_or(file.search.evaluations),
                              options.seed.value_or(file.search.seed)};

@@ -26,6 +26,9 @@ struct ProblemFile {
   std::string canonical;  // the problem as run: canonical JSON text, files it refers to written into it as outlines
 };
 
+// The run's folder unless the user names one: results/SLUG.
+inline std::string default_folder(const ProblemFile& file) { return "results/" + file.slug; }
+
 // Throws InputError with every issue of the file. Files that it names are read relative to it.
 ProblemFile read_problem_file(const std::string& path);
 // The same from text (path is for messages and relative files): what fuzzing feeds.

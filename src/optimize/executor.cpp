@@ -9,6 +9,7 @@
 #include <mutex>
 #include <vector>
 #else
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #endif
@@ -49,7 +50,10 @@ void run_parallel(int count, int threads, const std::function<void(int)>& work) 
 #else
 
 void run_parallel(int count, int threads, const std::function<void(int)>& work) {
-  tbb::task_arena arena(thread_count(threads));
+  // The limit is raised, too: more threads than cores are odd but may be asked for.
+  const auto limit = static_cast<std::size_t>(thread_count(threads));
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, limit);
+  tbb::task_arena arena(static_cast<int>(limit));
   arena.execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<int>(0, count, 1),

@@ -103,12 +103,18 @@ class Proposer {
   }
 
   // Topologies without feasible designs get every other task; improving what there is, the others. A part goes to
-  // looking elsewhere: most problems have several basins.
+  // looking elsewhere: most problems have several basins. Where all that brought nothing new, anything will do.
   void search() {
-    const auto rest = static_cast<double>(budget_.evaluations) * (1 - kScanShare);
-    const std::int64_t batch = std::clamp<std::int64_t>(static_cast<std::int64_t>(rest / kBatches), 1, kMostABatch);
+    const auto rest = static_cast<std::int64_t>(static_cast<double>(budget_.evaluations) * (1 - kScanShare));
+    const std::int64_t batch = std::clamp(rest / kBatches, std::min(rest, kTaskEvaluations), kMostABatch);
     const std::int64_t tasks = std::max<std::int64_t>(1, batch / kTaskEvaluations);
     const std::int64_t each = std::max<std::int64_t>(1, batch / tasks);
+    const auto& history = state_.history();
+    const bool fruitless = history.size() > 1 && history.back().evaluations == history[history.size() - 2].evaluations;
+    if (fruitless) {
+      for (const int topology : topologies_) add(Driver::Spread, topology, each, "anything new");
+      return;
+    }
     for (std::int64_t i = 0; i < tasks; ++i) {
       if (i % 8 == 7) {
         look_elsewhere(random_.pick(topologies_), each);

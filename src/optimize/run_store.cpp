@@ -281,7 +281,9 @@ RunStore RunStore::open_for_writing(const std::string& folder, const std::string
 
 RunStore RunStore::open_for_reading(const std::string& folder) {
   if (!exists(folder)) throw StoreError(folder + ": holds no run (no run.sqlite)");
-  auto impl = std::make_unique<Impl>(folder, nullptr, SQLITE_OPEN_READONLY);
+  // Not read-only: after a kill the first to look must be able to recover the log. SQLite itself falls back where the
+  // folder cannot be written to.
+  auto impl = std::make_unique<Impl>(folder, nullptr, SQLITE_OPEN_READWRITE);
   impl->database.run("BEGIN");  // one snapshot for all that follows, whatever a writer does
   impl->read_meta();
   return RunStore(std::move(impl));

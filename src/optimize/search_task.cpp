@@ -138,8 +138,7 @@ double Merit::operator()(const Score& score, const std::vector<Objective>& objec
     if (!at_most[k]) continue;
     broken += std::max(0.0, objectives[k].loss(score.objectives[k]) - *at_most[k]) / scale[k];
   }
-  if (!score.feasible) return kBroken * (1 + (broken > 0)) + score.violation + broken;
-  if (broken > 0) return kBroken + broken;
+  if (!score.feasible || broken > 0) return kBroken + score.violation + broken;
   if (only_feasibility) return 0;
   return objectives[focus].loss(score.objectives[focus]) / scale[focus];
 }

@@ -11,8 +11,8 @@
 
 namespace formotion {
 
-// What a driver minimises: candidates that break a bound on an objective or are infeasible rank behind all others,
-// nearer ones first; the others rank by one objective (epsilon constraints, Haimes 1971: weighted sums miss the front's
+// What a driver minimises: candidates that are infeasible or break a bound on an objective rank behind all others, by
+// the sum of what they lack; the others rank by one objective (epsilon constraints, Haimes 1971: weighted sums miss the front's
 // hollows).
 struct Merit {
   std::size_t focus = 0;                       // the objective that is improved
