@@ -23,6 +23,12 @@ Affine scaled(Affine a, double factor) {
   return a;
 }
 
+Affine divided(Affine a, double divisor) {
+  a.constant /= divisor;
+  for (auto& term : a.terms) term.second /= divisor;
+  return a;
+}
+
 Affine sum(const Affine& a, const Affine& b) {
   Affine result = a;
   result.constant += b.constant;
@@ -81,7 +87,7 @@ class Parser {
       if (c == '/') {
         if (!factor.is_literal()) throw Refused("a division by a variable");
         if (factor.constant == 0) throw Refused("a division by zero");
-        result = scaled(result, 1 / factor.constant);
+        result = divided(result, factor.constant);
       } else if (factor.is_literal()) {
         result = scaled(result, factor.constant);
       } else if (result.is_literal()) {

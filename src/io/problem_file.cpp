@@ -31,7 +31,7 @@ std::string slug_of(const std::string& name) {
     }
   }
   while (!slug.empty() && (slug.back() == '_' || slug.back() == '.')) slug.pop_back();
-  while (!slug.empty() && slug.front() == '.') slug.erase(slug.begin());
+  while (!slug.empty() && (slug.front() == '_' || slug.front() == '.')) slug.erase(slug.begin());
   return slug.empty() ? "problem" : slug.substr(0, 100);
 }
 
@@ -258,7 +258,7 @@ void apply_design_file(ProblemFile& problem, const std::string& path,
   ReadContext context{issues, std::filesystem::path(path).parent_path().string(), {}, canonical};
   for (const Variable& variable : problem.feeder.variables) context.names.push_back(variable.name);
   // What pareto.json and exports say beside the features.
-  const std::vector<std::string> beside{"id",         "topology", "values",     "metrics",   "worst_case",
+  const std::vector<std::string> beside{"id",         "topology", "values",     "metrics", "worst_case",
                                         "provenance", "feasible", "violations", "label"};
   problem.feeder.designs = {read_design(document, "", beside, context, canonical)};
   if (document.is_object() && document.contains("values")) {

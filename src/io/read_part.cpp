@@ -145,6 +145,24 @@ std::vector<feeder::AspectSpec> read_aspects(const Json& value, ReadContext& con
   return aspects;
 }
 
+// The outline and holes of a DXF file, in place of what a problem file would list; the canonical document lists them.
+void read_drawn_part(const std::string& file, feeder::AspectSpec& up, ReadContext& context) {
+  try {
+    const Polygon drawn = read_dxf_part(resolved(file, context));
+    Json& canonical = context.canonical["part"];
+    const Json more = canonical.value("holes_mm", Json::array());
+    Json holes = loops_json(drawn.holes);
+    if (more.is_array()) holes.insert(holes.end(), more.begin(), more.end());
+    canonical.erase("file");
+    canonical["outline_mm"] = loop_json(drawn.outer);
+    canonical["holes_mm"] = holes;
+    up.outline_mm = literal_loop(drawn.outer);
+    for (const Loop& hole : drawn.holes) up.holes_mm.push_back(literal_loop(hole));
+  } catch (const InputError& error) {
+    context.issues.issues.insert(context.issues.issues.end(), error.issues.begin(), error.issues.end());
+  }
+}
+
 }  // namespace
 
 feeder::PartSpec read_part(const Json& value, ReadContext& context) {
@@ -160,23 +178,11 @@ feeder::PartSpec read_part(const Json& value, ReadContext& context) {
   up.height_mm = object.required_number("thickness_mm", kPositive, "the part's thickness");
   bool outline_required = value.is_object() && !value.contains("layers");
   if (const auto file = object.string("file")) {
-    if (value.contains("outline_mm")) context.issues.add("/part/file", "both file and outline_mm", "one of them");
     outline_required = false;
-    try {
-      const Polygon drawn = read_dxf_part(resolved(*file, context));
-      up.outline_mm = literal_loop(drawn.outer);
-      Json& canonical = context.canonical["part"];
-      canonical.erase("file");
-      canonical["outline_mm"] = loop_json(drawn.outer);
-      Json holes =
-          canonical.contains("holes_mm") && canonical["holes_mm"].is_array() ? canonical["holes_mm"] : Json::array();
-      for (auto hole = drawn.holes.rbegin(); hole != drawn.holes.rend(); ++hole) {
-        holes.insert(holes.begin(), loop_json(*hole));
-      }
-      for (const Loop& hole : drawn.holes) up.holes_mm.push_back(literal_loop(hole));
-      canonical["holes_mm"] = holes;
-    } catch (const InputError& error) {
-      context.issues.issues.insert(context.issues.issues.end(), error.issues.begin(), error.issues.end());
+    if (value.contains("outline_mm")) {
+      context.issues.add("/part/file", "both file and outline_mm", "one of them");
+    } else {
+      read_drawn_part(*file, up, context);
     }
   }
   read_shape(object, up, outline_required, context);
