@@ -1,6 +1,8 @@
 #include "io/json_reader.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 
 #include "io/expression.hpp"
@@ -9,7 +11,11 @@
 namespace formotion {
 namespace {
 
-std::string number_text(double value) { return nlohmann::json(value).dump(); }
+// The shortest text that reads back as the number: 60, not 60.0.
+std::string number_text(double value) {
+  std::array<char, 32> text;
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
 
 std::string range_text(const Range& range) {
   const bool low = range.min > -kLargestNumber, high = range.max < kLargestNumber;

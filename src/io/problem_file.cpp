@@ -53,7 +53,10 @@ std::vector<Variable> read_variables(const Json* value, IssueList& issues) {
     variable.max = object.required_number("max", kAny);
     variable.value = object.number("value", kAny);
     object.finish();
-    if (object.valid() && variable.min > variable.max) {
+    const auto is_number = [&](const char* key) { return bounds.contains(key) && bounds[key].is_number(); };
+    if (!object.valid() || !is_number("min") || !is_number("max")) {
+      // said already
+    } else if (variable.min > variable.max) {
       issues.add(object.at("min"), Json(variable.min).dump(), "a number of at most max, " + Json(variable.max).dump());
     } else if (variable.value && (*variable.value < variable.min || *variable.value > variable.max)) {
       issues.add(object.at("value"), Json(*variable.value).dump(),
