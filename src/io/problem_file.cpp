@@ -20,6 +20,10 @@ constexpr double kLargestSeed = 9007199254740992.0;  // 2^53: JSON numbers of ev
 
 bool begins_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool goes_on_name(char c) { return begins_name(c) || (c >= '0' && c <= '9') || c == '.'; }
+bool is_name(const std::string& text) {
+  return !text.empty() && text.size() <= 64 && begins_name(text[0]) &&
+         std::all_of(text.begin(), text.end(), goes_on_name);
+}
 
 std::string slug_of(const std::string& name) {
   std::string slug;
@@ -45,8 +49,7 @@ std::vector<Variable> read_variables(const Json* value, IssueList& issues) {
   for (const auto& [name, bounds] : value->items()) {
     ObjectReader object(bounds, "/variables/" + name, issues);
     Variable variable{name, 0, 0, std::nullopt};
-    if (name.empty() || name.size() > 64 || !begins_name(name[0]) ||
-        !std::all_of(name.begin(), name.end(), goes_on_name)) {
+    if (!is_name(name)) {
       issues.add(object.pointer(), "the name '" + name + "'", "letters, digits, '_' and '.', beginning with a letter");
     }
     variable.min = object.required_number("min", kAny);
@@ -179,7 +182,7 @@ void check_variables_used(const Json& document, const std::vector<Variable>& var
     if (document.contains(key)) collect_names(document[key], used);
   }
   for (const Variable& variable : variables) {
-    if (!used.count(variable.name))
+    if (is_name(variable.name) && !used.count(variable.name))
       issues.add("/variables/" + variable.name, "a variable that nothing uses", "one that the designs or the part use");
   }
 }

@@ -1,0 +1,31 @@
+// Runs the built program as a user would, and catches what it says.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace formotion::program {
+
+struct Said {
+  int code = -1;
+  std::string out, err;
+};
+
+// formotion with these arguments; input goes to its stdin.
+Said run(const std::vector<std::string>& arguments, const std::string& input = "");
+// Starts it and sends it the signal after this many milliseconds, if it still runs. code is -signal if it died of one.
+Said run_and_signal(const std::vector<std::string>& arguments, int signal, int after_ms);
+
+// A folder of this test's own, gone afterwards.
+struct Folder {
+  Folder();
+  ~Folder();
+  std::string operator/(const std::string& name) const { return path + "/" + name; }
+  std::string path;
+};
+
+std::string read_file(const std::string& path);
+void write_file(const std::string& path, const std::string& text);
+std::string shipped(const std::string& name);  // a problem under problems/feeder
+
+}  // namespace formotion::program
