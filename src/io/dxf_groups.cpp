@@ -24,7 +24,8 @@ DxfGroups::DxfGroups(const std::string& text, const std::string& file) : text_(t
   if (text.find_first_not_of(" \t\r\n", at_) == std::string::npos)
     refuse("an empty file", "a DXF drawing (text, not binary)");
   if (text.rfind("AutoCAD Binary DXF", 0) == 0) refuse("a binary DXF drawing", "one saved as ASCII (text) DXF");
-  if (text.rfind("AC10", 0) == 0 || text.rfind("AC1.", 0) == 0) refuse("a DWG drawing", "one saved as ASCII (text) DXF");
+  if (text.rfind("AC10", 0) == 0 || text.rfind("AC1.", 0) == 0)
+    refuse("a DWG drawing", "one saved as ASCII (text) DXF");
   if (text.find('\0') != std::string::npos) refuse("binary data", "a DXF drawing saved as ASCII (text)");
 }
 

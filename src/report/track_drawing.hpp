@@ -16,9 +16,13 @@ struct TrackDrawing {
   std::vector<std::string> notes;  // lines of the title block: tolerance, goal pose, ...
 };
 
+// To scale: printed without fitting to the page, 1 mm on paper is 1 mm. What each feature removes is dimensioned from
+// the datum (x = 0) and the wall; the corners of cut-outs and drawings stand in tables.
 std::string track_svg(const TrackDrawing& drawing);
-// Layers: TRACK (the plate's outer contour with the voids that are open to an edge taken out), VOID (closed cut-outs),
-// WALL (the wall's face, a line at y = 0), NOTE (texts), BLADE (wipers and rails, seen from above). Lengths in mm.
+// Layers: TRACK (what is cut: the contours of the metal, outer and inner), VOID (what is removed: each void within the
+// strip as a closed contour, also where it is open to an edge, so that a `drawing` feature reads the track back), DATUM
+// (the wall's face y = 0 and the line x = 0), NOTE (texts), BLADE (wipers and rails, seen from above). Lengths in mm.
+// Metal that a void surrounds on all sides falls out when it is cut: it counts as void.
 std::string track_dxf(const TrackDrawing& drawing);
 
 }  // namespace formotion

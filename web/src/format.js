@@ -1,0 +1,80 @@
+// How numbers and names of the report read.
+
+const kNone = '\u2013';
+const kMinus = '\u2212';
+
+const kMeasures = {
+  efficiency: { title: 'Efficiency', unit: '%', digits: 1, says: 'share of arriving parts that leave in the goal pose' },
+  purity: { title: 'Purity', unit: '%', digits: 1, says: 'share of leaving parts that are in the goal pose' },
+  jam_probability: { title: 'Jams', unit: '%', digits: 1, says: 'share of arriving parts that stay on the track' },
+  tolerance_mm: {
+    title: 'Tolerance', unit: 'mm', digits: 3,
+    says: 'how far all edges of the voids may be off before an outcome changes',
+  },
+  margin_mm: {
+    title: 'Margin', unit: 'mm', digits: 3,
+    says: 'the least over poses: distance to tipping if delivered, depth of the loss if rejected',
+  },
+  length_mm: { title: 'Length', unit: 'mm', digits: 2, says: 'from the first feature\u2019s start to the last one\u2019s end' },
+  feature_count: { title: 'Features', unit: '', digits: 0, says: 'number of features' },
+  feed_rate_per_min: { title: 'Feed rate', unit: '/min', digits: 1, says: 'parts a minute at the conveying speed' },
+  violation: { title: 'Violation', unit: '', digits: 3, says: 'how far from feasible; 0 is feasible' },
+  number: { title: 'Evaluation', unit: '', digits: 0, says: 'the evaluation\u2019s number in the run' },
+};
+
+export function measure(name) {
+  return kMeasures[name] ?? { title: name, unit: '', digits: 3, says: name };
+}
+
+export function fixed(value, digits) {
+  if (value === null || value === undefined) return kNone;
+  const text = Math.abs(value).toLocaleString('en-US', { minimumFractionDigits: digits, maximumFractionDigits: digits });
+  return value < 0 && Number(text.replaceAll(',', '')) !== 0 ? kMinus + text : text;
+}
+
+// At most that many digits: 10, 7.5, 0.125.
+export function short(value, digits = 3) {
+  if (value === null || value === undefined) return kNone;
+  const text = Math.abs(value).toLocaleString('en-US', { maximumFractionDigits: digits, useGrouping: false });
+  return value < 0 && Number(text) !== 0 ? kMinus + text : text;
+}
+
+export const whole = (value) => fixed(value, 0);
+export const mm = (value, digits = 3) => (value === null || value === undefined ? kNone : `${fixed(value, digits)} mm`);
+export const percent = (value, digits = 1) =>
+  value === null || value === undefined ? kNone : `${fixed(100 * value, digits)} %`;
+export const degrees = (value) => `${short(value, 2)}\u00b0`;
+
+// A measure's number without its unit, and with it.
+export function bare(name, value) {
+  const { unit, digits } = measure(name);
+  return fixed(unit === '%' && value !== null && value !== undefined ? 100 * value : value, digits);
+}
+export function withUnit(name, value) {
+  const { unit } = measure(name);
+  if (value === null || value === undefined) return kNone;
+  return unit === '' ? bare(name, value) : unit === '/min' ? `${bare(name, value)} ${unit}` : `${bare(name, value)} ${unit}`;
+}
+export function titled(name) {
+  const { title, unit } = measure(name);
+  return unit ? `${title} (${unit})` : title;
+}
+
+export const poseName = (pose) => `${pose.aspect} ${degrees(pose.orientation_deg)}`;
+
+// Told apart by word and sign as well as by colour.
+export const kOutcomes = {
+  delivered: { word: 'delivered', sign: '\u2713' },
+  rejected: { word: 'rejected', sign: '\u2193' },
+  jammed: { word: 'jammed', sign: '\u2715' },
+  ambiguous: { word: 'ambiguous', sign: '?' },
+  undecided: { word: 'undecided', sign: '\u2026' },
+};
+export const outcome = (name) => kOutcomes[name] ?? { word: name, sign: '?' };
+
+// Below it a static prediction means little under vibration (docs/validation.md).
+export const kWeak_mm = 0.3;
+
+export function counted(number, one, many) {
+  return `${whole(number)} ${number === 1 ? one : many}`;
+}
