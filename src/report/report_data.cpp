@@ -16,7 +16,7 @@ using Json = OrderedJson;
 using namespace feeder;
 
 // Numbers of generators in one page, about 8 bytes each; designs beyond have no animated hull.
-constexpr std::size_t kMostTravelNumbers = 300000;
+constexpr std::size_t kMostTravelNumbers = 400000;
 
 Json mm(double value) { return std::isfinite(value) ? Json(std::round(value * 1e4) / 1e4 + 0.0) : Json(nullptr); }
 Json mm(const std::optional<double>& value) { return value ? mm(*value) : Json(nullptr); }
@@ -294,7 +294,17 @@ Json report_data(const ProblemFile& file, const FeederProblem& problem, const Ru
   for (const Variable& v : problem.variables()) start.push_back(v.start());
   if (!problem.topologies().empty()) writer.part(start, travel_pictures(problem, 0, start));
   json["designs"] = Json::array();
-  for (const Evaluated& design : run.front) json["designs"].push_back(writer(design));
+  // The knee is what the page opens with: its travel comes first, should there be too many.
+  std::vector<Json> designs(run.front.size());
+  const auto write = [&](bool of_knee) {
+    for (std::size_t i = 0; i < designs.size(); ++i) {
+      const bool is_knee = !json["knee"].is_null() && json["knee"]["id"] == design_id(run.front[i]);
+      if (is_knee == of_knee) designs[i] = writer(run.front[i]);
+    }
+  };
+  write(true);
+  write(false);
+  for (Json& design : designs) json["designs"].push_back(std::move(design));
   json["parts"] = writer.parts();  // [0] is the part as asked for, variables at their starting values
   return json;
 }

@@ -23,13 +23,22 @@ export async function withReport(path, visit) {
   const browser = await chromium.launch({
     executablePath: process.env.FORMOTION_CHROMIUM ?? '/usr/bin/chromium',
     headless: true,
-    args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
-      '--disable-component-update', '--disable-sync'],
+    args: [
+      '--no-sandbox',
+      '--disable-gpu',
+      '--disable-quic',
+      '--no-first-run',
+      '--disable-background-networking',
+      '--disable-component-update',
+      '--disable-sync',
+    ],
   });
   try {
     const page = await browser.newPage({ viewport: { width: 1200, height: 900 } });
     page.on('pageerror', (error) => check(false, `error of the page: ${error.stack}`));
-    page.on('console', (message) => check(!['error', 'warning'].includes(message.type()), `console: ${message.text()}`));
+    page.on('console', (message) =>
+      check(!['error', 'warning'].includes(message.type()), `console: ${message.text()}`),
+    );
     page.on('request', (request) => {
       const to = request.url();
       check(to.split('#')[0] === url || to.startsWith('data:'), `the page asks for ${to}`);

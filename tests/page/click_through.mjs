@@ -7,7 +7,10 @@ if (!path) throw new Error('usage: click_through.mjs report.html');
 
 const title = (page) => page.locator('#chosen-title').textContent();
 const shownIds = (page) => page.locator('#designs-table tbody tr').evaluateAll((rows) => rows.map((r) => r.dataset.id));
-const marks = (page) => page.locator('#pareto .mark').evaluateAll((all) => all.map((m) => ({ id: m.dataset.id, x: Number(m.dataset.cx), y: Number(m.dataset.cy) })));
+const marks = (page) =>
+  page
+    .locator('#pareto .mark')
+    .evaluateAll((all) => all.map((m) => ({ id: m.dataset.id, x: Number(m.dataset.cx), y: Number(m.dataset.cy) })));
 
 async function axes(page, report) {
   const before = await marks(page);
@@ -24,8 +27,14 @@ async function axes(page, report) {
   await settled(page);
   const after = await marks(page);
   const byNumber = [...after].sort((a, b) => a.x - b.x).map((m) => Number(m.id.slice(1)));
-  check(byNumber.every((n, i) => i === 0 || n >= byNumber[i - 1]), 'with evaluations across, marks stand in their order');
-  check(after.some((m) => Math.abs(m.x - before.find((b) => b.id === m.id).x) > 1), 'marks move when an axis changes');
+  check(
+    byNumber.every((n, i) => i === 0 || n >= byNumber[i - 1]),
+    'with evaluations across, marks stand in their order',
+  );
+  check(
+    after.some((m) => Math.abs(m.x - before.find((b) => b.id === m.id).x) > 1),
+    'marks move when an axis changes',
+  );
   await page.locator('#axis-y').selectOption('violation');
   await settled(page);
   const heights = new Set((await marks(page)).map((m) => m.y));
@@ -46,11 +55,20 @@ async function brush(page, report) {
   await page.mouse.move(box.x + box.width - 20, box.y + 345, { steps: 4 });
   await page.mouse.up();
   await settled(page);
-  const expected = all.filter((m) => m.x > cut).map((m) => m.id).sort();
+  const expected = all
+    .filter((m) => m.x > cut)
+    .map((m) => m.id)
+    .sort();
   check(expected.length > 0 && expected.length < all.length, 'the brush takes some designs and not others');
-  check(JSON.stringify((await shownIds(page)).sort()) === JSON.stringify(expected), 'the table shows the designs inside the brush');
+  check(
+    JSON.stringify((await shownIds(page)).sort()) === JSON.stringify(expected),
+    'the table shows the designs inside the brush',
+  );
   check((await page.locator('#pareto .mark.aside').count()) === all.length - expected.length, 'marks outside fade');
-  check((await page.locator('#table-status').textContent()).includes(`${expected.length} of`), 'the status says how many');
+  check(
+    (await page.locator('#table-status').textContent()).includes(`${expected.length} of`),
+    'the status says how many',
+  );
   await page.locator('#clear-brush').click();
   check((await shownIds(page)).length === report.designs.length, 'without the brush all rows are back');
 }
@@ -63,21 +81,32 @@ async function sorting(page, report) {
       const values = (await shownIds(page)).map((id) => report.designs.find((d) => d.id === id).metrics[name]);
       const sign = order === 'ascending' ? 1 : -1;
       check(order !== 'none', `a click sorts by ${name}${wanted ? `, the ${wanted}` : ''}`);
-      check(values.every((v, i) => i === 0 || sign * (v - values[i - 1]) >= 0), `rows are ${order} by ${name}`);
+      check(
+        values.every((v, i) => i === 0 || sign * (v - values[i - 1]) >= 0),
+        `rows are ${order} by ${name}`,
+      );
     }
   }
 }
 
 async function shows(page, design) {
   check((await title(page)) === `Design ${design.id}`, `the chosen design is ${design.id}`);
-  check((await page.locator('#designs-table tr[aria-selected="true"]').getAttribute('data-id')) === design.id, 'its row is marked');
+  check(
+    (await page.locator('#designs-table tr[aria-selected="true"]').getAttribute('data-id')) === design.id,
+    'its row is marked',
+  );
   check((await page.locator('#pareto .mark.selected').getAttribute('data-id')) === design.id, 'its mark is marked');
   const figure = async (name) => number(await page.locator(`#figures [data-measure="${name}"]`).textContent());
   check(Math.abs((await figure('tolerance_mm')) - design.metrics.tolerance_mm) < 6e-4, 'its tolerance is shown');
   check(Math.abs((await figure('length_mm')) - design.metrics.length_mm) < 6e-3, 'its length is shown');
-  const values = await page.locator('#variables tbody tr').evaluateAll((rows) => rows.map((r) => [r.cells[0].textContent, r.cells[1].textContent]));
+  const values = await page
+    .locator('#variables tbody tr')
+    .evaluateAll((rows) => rows.map((r) => [r.cells[0].textContent, r.cells[1].textContent]));
   check(values.length === Object.keys(design.values).length, 'all its variables are listed');
-  check(values.every(([name, text]) => Math.abs(number(text) - design.values[name]) < 6e-5), 'with their values');
+  check(
+    values.every(([name, text]) => Math.abs(number(text) - design.values[name]) < 6e-5),
+    'with their values',
+  );
   check((await page.locator('#reproduce').textContent()).includes(`designs/${design.id}.json`), 'the command names it');
   const links = await page.locator('#chosen .links a').evaluateAll((all) => all.map((a) => a.getAttribute('href')));
   for (const kind of ['svg', 'dxf']) check(links.includes(`designs/${design.id}.${kind}`), `it links its ${kind}`);
@@ -93,11 +122,17 @@ async function choosing(page, report) {
     await page.locator('#pareto svg').scrollIntoViewIfNeeded();
     const box = await page.locator('#pareto svg').boundingBox();
     const [x, y] = [box.x + mark.x, box.y + mark.y];
-    const top = await page.evaluate(([px, py]) => document.elementFromPoint(px, py).closest('.mark')?.dataset.id, [x, y]);
+    const top = await page.evaluate(
+      ([px, py]) => document.elementFromPoint(px, py).closest('.mark')?.dataset.id,
+      [x, y],
+    );
     check(Boolean(top), 'a mark can be met by the mouse');
     await page.mouse.click(x, y);
     await settled(page);
-    await shows(page, report.designs.find((d) => d.id === top));
+    await shows(
+      page,
+      report.designs.find((d) => d.id === top),
+    );
     if (now !== `Design ${top}`) check((await drawing()) !== before, 'another design has another drawing');
     check((await page.locator('#drawing svg .dimension text').count()) > 1, 'the drawing has dimensions');
     check((await page.locator('#drawing .scale-bar').count()) === 1, 'and a scale bar');
@@ -122,7 +157,8 @@ async function poses(page, design) {
     check(text.includes(pose.outcome), `pose ${i} says that it is ${pose.outcome}`);
     check(text.includes(`${(100 * pose.prior).toFixed(1)} %`), `pose ${i} says how often it arrives`);
     check(text.includes(`${pose.margin_mm.toFixed(3)} mm`), `pose ${i} says its margin`);
-    if (pose.decided_by) check(text.includes(`x = ${pose.decided_by.x_mm.toFixed(2)} mm`), `pose ${i} says where it is decided`);
+    if (pose.decided_by)
+      check(text.includes(`x = ${pose.decided_by.x_mm.toFixed(2)} mm`), `pose ${i} says where it is decided`);
     await card.click();
     await settled(page);
     check((await card.getAttribute('aria-pressed')) === 'true', `pose ${i} is chosen`);
@@ -132,7 +168,10 @@ async function poses(page, design) {
     check(Math.abs(least - expected) < 0.02, `pose ${i}: least margin ${least} drawn, ${expected} judged`);
     if (pose.outcome === 'delivered' && pose.decided_by) {
       const at = Number(await page.locator('#readout [data-margin]').getAttribute('data-margin'));
-      check(Math.abs(at - pose.margin_mm) < 2e-3, `pose ${i}: margin ${at} at the deciding instant, ${pose.margin_mm} judged`);
+      check(
+        Math.abs(at - pose.margin_mm) < 2e-3,
+        `pose ${i}: margin ${at} at the deciding instant, ${pose.margin_mm} judged`,
+      );
     }
   }
 }
@@ -154,13 +193,17 @@ async function travel(page, design) {
   await settled(page);
   const after = [await picture(), await hull(), await page.locator('#readout').textContent()];
   check(Math.abs((await place()) - start) > 5, 'the slider moves the part');
-  ['the part', 'the hull', 'the numbers'].forEach((what, i) => check(before[i] !== after[i], `${what} follow the slider`));
+  ['the part', 'the hull', 'the numbers'].forEach((what, i) =>
+    check(before[i] !== after[i], `${what} follow the slider`),
+  );
   const here = await place();
   await slider.press('ArrowRight');
   check(Math.abs((await place()) - here - 0.1) < 1e-6, 'an arrow key is a tenth of a millimetre');
   await page.locator('#speed').selectOption('50');
   await page.locator('#play').click();
-  await page.waitForFunction((x) => Number(document.querySelector('#readout [data-x]').dataset.x) > x + 1, here, { timeout: 5000 });
+  await page.waitForFunction((x) => Number(document.querySelector('#readout [data-x]').dataset.x) > x + 1, here, {
+    timeout: 5000,
+  });
   await page.locator('#play').click();
   const stopped = await place();
   await page.waitForTimeout(150);
@@ -184,8 +227,12 @@ async function printing(page) {
 }
 
 await withReport(path, async (page, report, url) => {
-  if (report.designs.length < 3 || report.run.feasible === 0) throw new Error('needs a report with three feasible designs');
-  check((await page.locator('#verdict').textContent()).includes('non-dominated'), 'the verdict does not claim more than is known');
+  if (report.designs.length < 3 || report.run.feasible === 0)
+    throw new Error('needs a report with three feasible designs');
+  check(
+    (await page.locator('#verdict').textContent()).includes('non-dominated'),
+    'the verdict does not claim more than is known',
+  );
   check(!/optim(al|um)\b/i.test(await page.locator('body').innerText()), 'nothing is called optimal');
   await axes(page, report);
   await brush(page, report);

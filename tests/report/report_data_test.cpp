@@ -188,6 +188,32 @@ TEST_CASE("without a feasible design there is no knee, and every design says wha
   for (const Json& design : data["designs"]) CHECK(design["violations"].size() > 0);
 }
 
+TEST_CASE("a page of many rounded shapes stays small, and the knee keeps its travel") {
+  // Arcs are many edges, so each travel has many hull corners. The slot is inside out: no time goes into a tolerance.
+  Json text = Json::parse(Run::problem_text("round"));
+  text["topologies"] = Json::parse(R"([
+    {"features": [{"type": "dish-out", "depth_mm": "y", "length_mm": "2*y + 40"}, {"type": "slot", "from_mm": "x + 5",
+                   "to_mm": "x", "length_mm": "w"}, {"type": "dish-out", "depth_mm": "w", "length_mm": "2*w + 60"}]}])");
+  text["manufacture"] = {{"cutter_radius_mm", 2}};
+  Run run(100, text.dump());
+  run.run.front = run.run.sample;
+  run.run.feasible = 100;  // as if: the knee asks for the scores alone
+  for (std::size_t i = 0; i < 100; ++i) {
+    const double a = i / 99.0, b = (1 - a) * (1 - a);  // a convex front
+    run.run.front[i].score.objectives = {-a, -b, 1};
+  }
+  const Json data = report_data(run.file, run.problem, run.run);
+  CHECK(report_page(data).size() < 5000000);
+  std::size_t without = 0;
+  for (const Json& design : data["designs"]) {
+    without += design["travel"].is_null() ? 1 : 0;
+    if (design["id"] == data["knee"]["id"]) CHECK_FALSE(design["travel"].is_null());
+  }
+  CHECK(without > 0);
+  CHECK(without < 100);
+  CHECK(data["designs"][1]["id"] == "d2");  // the front's order stands
+}
+
 TEST_CASE("a run that evaluated nothing has a report") {
   Run run(0);
   const Json data = report_data(run.file, run.problem, run.run);

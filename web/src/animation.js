@@ -19,7 +19,7 @@ export function animation(design, index, part, environment) {
   const start = restingPlace(result, design);
   const width = environment.track_width_mm;
   const curve = travel && marginCurve(pose, travel, from, to);
-  const firstLoss = result.outcome === 'delivered' ? null : result.decided_by?.x_mm ?? null;
+  const firstLoss = result.outcome === 'delivered' ? null : (result.decided_by?.x_mm ?? null);
 
   let x = start;
   let speed = 20;
@@ -29,22 +29,50 @@ export function animation(design, index, part, environment) {
   const stage = h('div', { class: 'stage' });
   const readout = h('output', { class: 'readout', id: 'readout', for: 'scrub' });
   const slider = h('input', {
-    type: 'range', id: 'scrub', min: from.toFixed(3), max: to.toFixed(3), step: 'any', 'aria-label': 'Position of the centre of mass along the track',
-    oninput: () => { pause(); show(Number(slider.value)); },
+    type: 'range',
+    id: 'scrub',
+    min: from.toFixed(3),
+    max: to.toFixed(3),
+    step: 'any',
+    'aria-label': 'Position of the centre of mass along the track',
+    oninput: () => {
+      pause();
+      show(Number(slider.value));
+    },
   });
   // Steps of the keyboard: a fine one, since margins jump.
   slider.addEventListener('keydown', (event) => {
-    const step = { ArrowLeft: -0.1, ArrowRight: 0.1, ArrowDown: -0.1, ArrowUp: 0.1, PageDown: -5, PageUp: 5 }[event.key];
+    const step = { ArrowLeft: -0.1, ArrowRight: 0.1, ArrowDown: -0.1, ArrowUp: 0.1, PageDown: -5, PageUp: 5 }[
+      event.key
+    ];
     if (!step) return;
     event.preventDefault();
     pause();
     show(x + step);
   });
   const play = h('button', { type: 'button', id: 'play', onclick: () => (timer ? pause() : run()) }, '\u25b6 Play');
-  const jump = h('button', { type: 'button', id: 'jump', onclick: () => { pause(); show(start); } },
-    result.decided_by ? 'Deciding instant' : 'Middle');
-  const speeds = h('select', { id: 'speed', onchange: () => { speed = Number(speeds.value); } },
-    kSpeeds_mm_s.map((v) => h('option', { value: v, selected: v === speed }, `${v} mm/s`)));
+  const jump = h(
+    'button',
+    {
+      type: 'button',
+      id: 'jump',
+      onclick: () => {
+        pause();
+        show(start);
+      },
+    },
+    result.decided_by ? 'Deciding instant' : 'Middle',
+  );
+  const speeds = h(
+    'select',
+    {
+      id: 'speed',
+      onchange: () => {
+        speed = Number(speeds.value);
+      },
+    },
+    kSpeeds_mm_s.map((v) => h('option', { value: v, selected: v === speed }, `${v} mm/s`)),
+  );
 
   function pause() {
     cancelAnimationFrame(timer);
@@ -95,7 +123,9 @@ export function animation(design, index, part, environment) {
     const chartHeight = curve ? 110 : 0;
     const height = curve ? chartTop + chartHeight + 8 : floor + 24;
     const svg = s('svg', {
-      viewBox: `0 0 ${px} ${height}`, class: `travel ${result.outcome}`, role: 'img',
+      viewBox: `0 0 ${px} ${height}`,
+      class: `travel ${result.outcome}`,
+      role: 'img',
       'aria-label': `Pose ${poseName(result)} over the track, to scale`,
     });
     const { group, clip } = drawTrack(design.track, width, xFrom, xTo, view);
@@ -107,9 +137,14 @@ export function animation(design, index, part, environment) {
     if (chart) svg.append(chart.node);
     if (result.decided_by) {
       const dx = view.x(start);
-      svg.append(s('g', { class: 'deciding-mark' },
-        s('line', { class: 'deciding', x1: dx, x2: dx, y1: view.y(0) + 10, y2: chartTop }),
-        s('text', { class: 'note', x: dx + 5, y: floor + 20 }, 'deciding instant')));
+      svg.append(
+        s(
+          'g',
+          { class: 'deciding-mark' },
+          s('line', { class: 'deciding', x1: dx, x2: dx, y1: view.y(0) + 10, y2: chartTop }),
+          s('text', { class: 'note', x: dx + 5, y: floor + 20 }, 'deciding instant'),
+        ),
+      );
     }
     return {
       svg,
@@ -119,7 +154,7 @@ export function animation(design, index, part, environment) {
         body.move(x);
         centre.setAttribute('transform', `translate(${x * scale},0)`);
         hull.setAttribute('d', support ? pathOf([support.hull], ([hx, hy]) => view.to([hx + x, hy])) : '');
-        const lost = support ? support.margin === null ? !support.held : support.margin < kLost_mm : false;
+        const lost = support ? (support.margin === null ? !support.held : support.margin < kLost_mm) : false;
         svg.classList.toggle('unsupported', lost);
         svg.classList.toggle('gone', firstLoss !== null && x > firstLoss + 0.05);
         chart?.move(x, support.margin);
@@ -128,27 +163,66 @@ export function animation(design, index, part, environment) {
   }
 
   function say(support) {
-    const state = !support ? null
-      : support.held ? 'held by the rail'
-      : support.margin === null ? 'nothing under it'
-      : support.margin < kLost_mm ? `supported point ${mm(-support.margin)} outside of the hull`
-      : `supported point ${mm(Math.max(0, support.margin))} inside of the hull`;
+    const state = !support
+      ? null
+      : support.held
+        ? 'held by the rail'
+        : support.margin === null
+          ? 'nothing under it'
+          : support.margin < kLost_mm
+            ? `supported point ${mm(-support.margin)} outside of the hull`
+            : `supported point ${mm(Math.max(0, support.margin))} inside of the hull`;
     const gone = firstLoss !== null && x > firstLoss + 0.05;
     readout.replaceChildren(
       h('span', null, 'x = ', h('b', { 'data-x': x }, fixed(x, 2)), ' mm'),
-      state ? h('span', { class: support.margin !== null && support.margin >= kLost_mm || support.held ? 'good' : 'bad' },
-        h('b', { 'data-margin': support.margin ?? '' }, support.margin === null ? '' : `${support.margin < kLost_mm ? '\u2212' : '+'} `), state) : '',
-      gone ? h('span', { class: 'faint' }, `lost at x = ${fixed(firstLoss, 2)} mm: drawn on as if it went on`) : '');
+      state
+        ? h(
+            'span',
+            { class: (support.margin !== null && support.margin >= kLost_mm) || support.held ? 'good' : 'bad' },
+            h(
+              'b',
+              { 'data-margin': support.margin ?? '' },
+              support.margin === null ? '' : `${support.margin < kLost_mm ? '\u2212' : '+'} `,
+            ),
+            state,
+          )
+        : '',
+      gone ? h('span', { class: 'faint' }, `lost at x = ${fixed(firstLoss, 2)} mm: drawn on as if it went on`) : '',
+    );
   }
 
-  const tip = result.unsupported_mm === null ? null
-    : `Unsupported travel ${mm(result.unsupported_mm, 2)}; its nose needs ${mm(result.tip_mm, 2)} to drop by 1 mm at ${short(environment.conveying_speed_mm_s)} mm/s.`;
-  const node = h('div', { class: `animation ${result.outcome}`, id: 'animation' },
-    h('p', { class: 'verdict' }, badge(result.outcome), ' ', h('strong', null, poseName(result)), `: ${result.reason || marginWords(result)}.`),
+  const tip =
+    result.unsupported_mm === null
+      ? null
+      : `Unsupported travel ${mm(result.unsupported_mm, 2)}${
+          result.tip_mm === null
+            ? ''
+            : `; its nose needs ${mm(result.tip_mm, 2)} to drop by 1 mm at ${short(environment.conveying_speed_mm_s)} mm/s`
+        }.`;
+  const node = h(
+    'div',
+    { class: `animation ${result.outcome}`, id: 'animation' },
+    h(
+      'p',
+      { class: 'verdict' },
+      badge(result.outcome),
+      ' ',
+      h('strong', null, poseName(result)),
+      `: ${result.reason || marginWords(result)}.`,
+    ),
     tip ? h('p', { class: 'small' }, tip) : null,
-    travel ? null : h('p', { class: 'note-box' }, 'This report holds the support hulls of other designs only, to stay small; the part\u2019s contact with the metal is drawn all the same.'),
+    travel
+      ? null
+      : h(
+          'p',
+          { class: 'note-box' },
+          'This report holds the support hulls of other designs only, to stay small; the part\u2019s contact with the metal is drawn all the same.',
+        ),
     h('div', { class: 'controls' }, play, jump, h('label', null, 'Speed ', speeds), readout),
-    stage, slider, legend(Boolean(travel), pose));
+    stage,
+    slider,
+    legend(Boolean(travel), pose),
+  );
   node.dataset.least = curve ? String(Math.min(...curve.map((p) => p.margin ?? Infinity))) : '';
   node.dataset.decided = decidedWords(result, design);
   return { node, pause };
@@ -157,8 +231,18 @@ export function animation(design, index, part, environment) {
 function legend(hasHull, pose) {
   const item = (cls, text) => h('span', null, h('i', { class: `key ${cls}`, 'aria-hidden': 'true' }), text);
   const shifted = Math.abs(pose.com_y_mm - pose.supported_y_mm) > 1e-3;
-  return h('p', { class: 'legend' },
-    item('part', 'part'), item('supported', 'part on metal'), hasHull ? item('hull', 'hull of the support') : null,
+  return h(
+    'p',
+    { class: 'legend' },
+    item('part', 'part'),
+    item('supported', 'part on metal'),
+    hasHull ? item('hull', 'hull of the support') : null,
     item('com', 'centre of mass'),
-    item('target', shifted ? `supported point (centre of mass projected along gravity, ${mm(pose.com_y_mm - pose.supported_y_mm, 2)} nearer to the wall)` : 'supported point'));
+    item(
+      'target',
+      shifted
+        ? `supported point (centre of mass projected along gravity, ${mm(pose.com_y_mm - pose.supported_y_mm, 2)} nearer to the wall)`
+        : 'supported point',
+    ),
+  );
 }

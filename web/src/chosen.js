@@ -6,7 +6,15 @@ import { fixed, kWeak_mm, measure, mm, short, whole, withUnit } from './format.j
 import { poseCards } from './poses.js';
 import { featureTable, trackDrawing } from './track_drawing.js';
 
-const kFigures = ['efficiency', 'tolerance_mm', 'margin_mm', 'feed_rate_per_min', 'length_mm', 'purity', 'jam_probability'];
+const kFigures = [
+  'efficiency',
+  'tolerance_mm',
+  'margin_mm',
+  'feed_rate_per_min',
+  'length_mm',
+  'purity',
+  'jam_probability',
+];
 
 export function chosenDesign(report, state, section) {
   let running = null;
@@ -16,8 +24,10 @@ export function chosenDesign(report, state, section) {
     running = null;
     const design = report.designs.find((d) => d.id === state.get('design'));
     if (!design) {
-      section.replaceChildren(h('h2', { id: 'chosen-title' }, 'The chosen design'),
-        h('p', { class: 'empty' }, 'No design has been evaluated.'));
+      section.replaceChildren(
+        h('h2', { id: 'chosen-title' }, 'The chosen design'),
+        h('p', { class: 'empty' }, 'No design has been evaluated.'),
+      );
       return;
     }
     const part = report.parts[design.part];
@@ -29,23 +39,38 @@ export function chosenDesign(report, state, section) {
       figures(design),
       cautions(report, design),
       h('h3', null, 'The track, seen from above'),
-      h('p', { class: 'small' }, 'To scale, dimensions in mm. Cut what is white; hatched is the wall, its face is y = 0. ', links(design)),
+      h(
+        'p',
+        { class: 'small' },
+        'To scale, dimensions in mm. Cut what is white; hatched is the wall, its face is y = 0. ',
+        links(design),
+      ),
       trackDrawing(design, environment.track_width_mm),
       featureTable(design, environment.track_width_mm, manufacture.cutter_radius_mm),
       h('h3', null, 'What becomes of every pose'),
-      h('p', { class: 'small' }, 'Each at the instant that decides it, all to one scale; the wall is below, parts move to the right. Choose one to see its travel.'),
+      h(
+        'p',
+        { class: 'small' },
+        'Each at the instant that decides it, all to one scale; the wall is below, parts move to the right. Choose one to see its travel.',
+      ),
       cards.node,
       h('h3', { id: 'travel-title' }, 'Its travel over the track'),
       travel,
-      h('div', { class: 'columns' },
+      h(
+        'div',
+        { class: 'columns' },
         h('div', null, h('h3', null, 'Variables'), variables(report, design)),
-        h('div', null, h('h3', null, 'Reproduce it'), reproduce(report, design))));
+        h('div', null, h('h3', null, 'Reproduce it'), reproduce(report, design)),
+      ),
+    );
     cards.mark();
     section.refreshPose = () => {
       cards.mark();
       running?.pause();
       running = design.poses.length ? animation(design, state.get('pose'), part, environment) : null;
-      travel.replaceChildren(running?.node ?? h('p', { class: 'empty' }, 'The part rests in no pose, so nothing travels.'));
+      travel.replaceChildren(
+        running?.node ?? h('p', { class: 'empty' }, 'The part rests in no pose, so nothing travels.'),
+      );
     };
     section.refreshPose();
   }
@@ -53,7 +78,15 @@ export function chosenDesign(report, state, section) {
   // The goal's pose first, else the first one that counts against the design.
   function choose() {
     const design = report.designs.find((d) => d.id === state.get('design'));
-    if (design) state.set('pose', design.goal_pose ?? Math.max(0, design.poses.findIndex((p) => p.outcome !== 'rejected')));
+    if (design)
+      state.set(
+        'pose',
+        design.goal_pose ??
+          Math.max(
+            0,
+            design.poses.findIndex((p) => p.outcome !== 'rejected'),
+          ),
+      );
     draw();
   }
   state.on('design', choose);
@@ -63,35 +96,86 @@ export function chosenDesign(report, state, section) {
 
 function heading(report, design) {
   const knee = design.id === report.knee?.id;
-  return h('div', { class: 'heading' },
+  return h(
+    'div',
+    { class: 'heading' },
     h('h2', { id: 'chosen-title' }, `Design ${design.id}`),
-    h('span', { class: design.feasible ? 'pill feasible' : 'pill infeasible' }, design.feasible ? '\u2713 feasible' : '\u2715 not feasible'),
+    h(
+      'span',
+      { class: design.feasible ? 'pill feasible' : 'pill infeasible' },
+      design.feasible ? '\u2713 feasible' : '\u2715 not feasible',
+    ),
     knee ? h('span', { class: 'pill', title: report.knee.how }, '\u25c6 knee of the front') : null,
-    h('span', { class: 'faint' }, `${design.label} \u00b7 evaluation ${whole(design.number)}${design.provenance ? ` \u00b7 proposed by ${design.provenance}` : ''}`));
+    h(
+      'span',
+      { class: 'faint' },
+      `${design.label} \u00b7 evaluation ${whole(design.number)}${design.provenance ? ` \u00b7 proposed by ${design.provenance}` : ''}`,
+    ),
+  );
 }
 
 function figures(design) {
-  return h('dl', { class: 'figures', id: 'figures' }, kFigures.map((name) => h('div', { title: measure(name).says },
-    h('dt', null, measure(name).title), h('dd', { 'data-measure': name }, withUnit(name, design.metrics[name])))));
+  return h(
+    'dl',
+    { class: 'figures', id: 'figures' },
+    kFigures.map((name) =>
+      h(
+        'div',
+        { title: measure(name).says },
+        h('dt', null, measure(name).title),
+        h('dd', { 'data-measure': name }, withUnit(name, design.metrics[name])),
+      ),
+    ),
+  );
 }
 
 function cautions(report, design) {
   const { tolerance_mm: tolerance } = design.metrics;
-  const wrong = design.violations.map((v) => h('li', { class: 'bad' }, h('b', null, v.what), ` (${v.where}${v.by > 0 ? `, by ${short(v.by, 4)}` : ''})`));
+  const wrong = design.violations.map((v) =>
+    h('li', { class: 'bad' }, h('b', null, v.what), ` (${v.where}${v.by > 0 ? `, by ${short(v.by, 4)}` : ''})`),
+  );
   const own = [
     design.feasible ? null : h('li', { class: 'bad' }, 'Do not build this design: it does not meet the goal.'),
-    tolerance === null ? h('li', { class: 'bad' }, 'It has no tolerance: a shape is impossible as asked, or no pose arrives.')
-      : tolerance < kWeak_mm ? h('li', { class: 'warn' }, `Its tolerance of ${mm(tolerance)} is below ${kWeak_mm} mm: cutting errors and vibration may change an outcome.`) : null,
+    tolerance === null
+      ? h('li', { class: 'bad' }, 'It has no tolerance: a shape is impossible as asked, or no pose arrives.')
+      : tolerance < kWeak_mm
+        ? h(
+            'li',
+            { class: 'warn' },
+            `Its tolerance of ${mm(tolerance)} is below ${kWeak_mm} mm: cutting errors and vibration may change an outcome.`,
+          )
+        : null,
     ...groupedWarnings(design.warnings).map((text) => h('li', { class: 'warn' }, text)),
   ].filter(Boolean);
-  return h('div', { class: 'cautions' },
+  return h(
+    'div',
+    { class: 'cautions' },
     wrong.length ? [h('h3', null, 'Why it is not feasible'), h('ul', { id: 'violations' }, wrong)] : null,
     h('h3', null, 'Before you cut metal'),
-    h('ul', { id: 'cautions' }, own,
-      h('li', null, 'Outcomes are static: a part that loses its support anywhere counts as lost. Vibration, hopping and speed are not simulated; ',
-        'predictions within 0.3 to 0.5 mm of critical mean little under vibration.'),
-      h('li', null, 'A lost part may catch with its nose on the far edge of a void instead of falling, most of all at gaps across the whole track. Try a first part by hand.'),
-      report.problem.uncertainty ? h('li', null, 'The worst case over the stated uncertainties is not computed; compare them with the tolerance.') : null));
+    h(
+      'ul',
+      { id: 'cautions' },
+      own,
+      h(
+        'li',
+        null,
+        'Outcomes are static: a part that loses its support anywhere counts as lost. Vibration, hopping and speed are not simulated; ',
+        'predictions within 0.3 to 0.5 mm of critical mean little under vibration.',
+      ),
+      h(
+        'li',
+        null,
+        'A lost part may catch with its nose on the far edge of a void instead of falling, most of all at gaps across the whole track. Try a first part by hand.',
+      ),
+      report.problem.uncertainty
+        ? h(
+            'li',
+            null,
+            'The worst case over the stated uncertainties is not computed; compare them with the tolerance.',
+          )
+        : null,
+    ),
+  );
 }
 
 // "pose A: text" and "pose B: text" of the same text become one line.
@@ -102,49 +186,107 @@ function groupedWarnings(warnings) {
     const [who, text] = split ? [split[1], split[2]] : ['', warning];
     texts.set(text, [...(texts.get(text) ?? []), who]);
   }
-  return [...texts].map(([text, who]) => (who[0] ? `Pose ${who.map((w) => w.replace(' deg', '\u00b0')).join(', ')}: ${text}.` : `${text.replace(/^./, (c) => c.toUpperCase())}.`));
+  return [...texts].map(([text, who]) =>
+    who[0]
+      ? `Pose ${who.map((w) => w.replace(' deg', '\u00b0')).join(', ')}: ${text}.`
+      : `${text.replace(/^./, (c) => c.toUpperCase())}.`,
+  );
 }
 
 function links(design) {
   const file = (kind, title) => h('a', { href: `designs/${design.id}.${kind}` }, title);
-  return h('span', { class: 'links' }, file('svg', 'drawing (SVG)'), ' \u00b7 ', file('dxf', 'contours (DXF)'), ' \u00b7 ', file('json', 'numbers (JSON)'));
+  return h(
+    'span',
+    { class: 'links' },
+    file('svg', 'drawing (SVG)'),
+    ' \u00b7 ',
+    file('dxf', 'contours (DXF)'),
+    ' \u00b7 ',
+    file('json', 'numbers (JSON)'),
+  );
 }
 
 function variables(report, design) {
-  const rows = report.problem.variables.filter((v) => v.name in design.values).map((v) => {
-    const value = design.values[v.name];
-    const share = v.max > v.min ? (value - v.min) / (v.max - v.min) : 0.5;
-    const bound = share < 1e-6 ? 'at its least' : share > 1 - 1e-6 ? 'at its most' : '';
-    return h('tr', null, h('th', { scope: 'row' }, v.name), h('td', { class: 'num' }, fixed(value, 4)),
-      h('td', { class: 'num faint' }, short(v.min, 4)),
-      h('td', null, h('span', { class: 'range', title: `${short(v.min, 4)} to ${short(v.max, 4)}` }, h('i', { style: `left:${(100 * Math.max(0, Math.min(1, share))).toFixed(1)}%` }))),
-      h('td', { class: 'num faint' }, short(v.max, 4)), h('td', { class: 'small' }, v.max > v.min ? bound : 'fixed'));
-  });
+  const rows = report.problem.variables
+    .filter((v) => v.name in design.values)
+    .map((v) => {
+      const value = design.values[v.name];
+      const share = v.max > v.min ? (value - v.min) / (v.max - v.min) : 0.5;
+      const bound = share < 1e-6 ? 'at its least' : share > 1 - 1e-6 ? 'at its most' : '';
+      return h(
+        'tr',
+        null,
+        h('th', { scope: 'row' }, v.name),
+        h('td', { class: 'num' }, fixed(value, 4)),
+        h('td', { class: 'num faint' }, short(v.min, 4)),
+        h(
+          'td',
+          null,
+          h(
+            'span',
+            { class: 'range', title: `${short(v.min, 4)} to ${short(v.max, 4)}` },
+            h('i', { style: `left:${(100 * Math.max(0, Math.min(1, share))).toFixed(1)}%` }),
+          ),
+        ),
+        h('td', { class: 'num faint' }, short(v.max, 4)),
+        h('td', { class: 'small' }, v.max > v.min ? bound : 'fixed'),
+      );
+    });
   if (!rows.length) return h('p', { class: 'empty' }, 'This choice of features has no variables.');
-  return h('table', { class: 'plain variables', id: 'variables' },
-    h('thead', null, h('tr', null, h('th', { scope: 'col' }, 'Name'), h('th', { scope: 'col', class: 'num' }, 'Value'),
-      h('th', { scope: 'col', class: 'num' }, 'least'), h('th', null), h('th', { scope: 'col', class: 'num' }, 'most'), h('th', null))),
-    h('tbody', null, rows));
+  return h(
+    'table',
+    { class: 'plain variables', id: 'variables' },
+    h(
+      'thead',
+      null,
+      h(
+        'tr',
+        null,
+        h('th', { scope: 'col' }, 'Name'),
+        h('th', { scope: 'col', class: 'num' }, 'Value'),
+        h('th', { scope: 'col', class: 'num' }, 'least'),
+        h('th', null),
+        h('th', { scope: 'col', class: 'num' }, 'most'),
+        h('th', null),
+      ),
+    ),
+    h('tbody', null, rows),
+  );
 }
 
 function reproduce(report, design) {
   const line = (command) => h('div', { class: 'command' }, h('code', null, command), copyButton(command));
-  return h('div', { id: 'reproduce' },
-    h('p', { class: 'small' }, 'Scores this design again, from its exact numbers:'), line(design.commands.evaluate),
-    h('p', { class: 'small' }, 'Prints its file again, should it be missing:'), line(design.commands.export),
-    h('p', { class: 'small faint' }, `Run folder as by default; the search itself had seed ${report.run.seed}.`));
+  return h(
+    'div',
+    { id: 'reproduce' },
+    h('p', { class: 'small' }, 'Scores this design again, from its exact numbers:'),
+    line(design.commands.evaluate),
+    h('p', { class: 'small' }, 'Prints its file again, should it be missing:'),
+    line(design.commands.export),
+    h('p', { class: 'small faint' }, `Run folder as by default; the search itself had seed ${report.run.seed}.`),
+  );
 }
 
 function copyButton(text) {
-  const button = h('button', { type: 'button', class: 'copy', onclick: async () => {
-    try {
-      await navigator.clipboard.writeText(text);
-      button.textContent = 'Copied';
-    } catch {
-      getSelection().selectAllChildren(button.previousElementSibling);
-      button.textContent = 'Selected';
-    }
-    setTimeout(() => { button.textContent = 'Copy'; }, 1500);
-  } }, 'Copy');
+  const button = h(
+    'button',
+    {
+      type: 'button',
+      class: 'copy',
+      onclick: async () => {
+        try {
+          await navigator.clipboard.writeText(text);
+          button.textContent = 'Copied';
+        } catch {
+          getSelection().selectAllChildren(button.previousElementSibling);
+          button.textContent = 'Selected';
+        }
+        setTimeout(() => {
+          button.textContent = 'Copy';
+        }, 1500);
+      },
+    },
+    'Copy',
+  );
   return button;
 }

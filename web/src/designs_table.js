@@ -24,27 +24,71 @@ export function designsTable(report, state) {
 
   const rows = new Map(report.designs.map((design) => [design.id, rowOf(design)]));
   const body = h('tbody');
-  const heads = columns.map((c) => ({ column: c, node: head(c.name, `${measure(c.name).title}`, measure(c.name).unit, c.of, measure(c.name).says) }));
-  const idHead = { column: { name: 'id' }, node: head('id', 'Design', '', (d) => d.number, 'the number of its evaluation') };
+  const heads = columns.map((c) => ({
+    column: c,
+    node: head(c.name, `${measure(c.name).title}`, measure(c.name).unit, c.of, measure(c.name).says),
+  }));
+  const idHead = {
+    column: { name: 'id' },
+    node: head('id', 'Design', '', (d) => d.number, 'the number of its evaluation'),
+  };
   const status = h('p', { class: 'small', id: 'table-status', role: 'status' });
 
   function head(name, title, unit, of, says) {
-    const cell = h('th', { scope: 'col', class: name === 'id' ? null : 'num' },
-      h('button', { type: 'button', title: says, 'data-sort': name, onclick: () => {
-        sort = { by: name, of, down: sort.by === name ? !sort.down : name !== 'id' && !(report.problem.objectives.find((o) => o.name === name)?.maximise === false) };
-        arrange();
-      } }, title, unit ? h('span', { class: 'unit' }, ` ${unit}`) : null, h('span', { class: 'arrow', 'aria-hidden': 'true' })));
+    const cell = h(
+      'th',
+      { scope: 'col', class: name === 'id' ? null : 'num' },
+      h(
+        'button',
+        {
+          type: 'button',
+          title: says,
+          'data-sort': name,
+          onclick: () => {
+            sort = {
+              by: name,
+              of,
+              down:
+                sort.by === name
+                  ? !sort.down
+                  : name !== 'id' && !(report.problem.objectives.find((o) => o.name === name)?.maximise === false),
+            };
+            arrange();
+          },
+        },
+        title,
+        unit ? h('span', { class: 'unit' }, ` ${unit}`) : null,
+        h('span', { class: 'arrow', 'aria-hidden': 'true' }),
+      ),
+    );
     return cell;
   }
 
   function rowOf(design) {
     const knee = design.id === report.knee?.id;
-    const row = h('tr', {
-      'data-id': design.id, onclick: () => state.set('design', design.id), onkeydown: (event) => onKey(event, design.id),
-    },
-      h('th', { scope: 'row' }, design.id, knee ? h('span', { class: 'tag', title: report.knee.how }, 'knee') : null,
-        several ? h('span', { class: 'label' }, design.label) : null),
-      columns.map((c) => h('td', { class: c.objective ? 'num objective' : 'num' }, weak(c.name, c.of(design)), bare(c.name, c.of(design)))));
+    const row = h(
+      'tr',
+      {
+        'data-id': design.id,
+        onclick: () => state.set('design', design.id),
+        onkeydown: (event) => onKey(event, design.id),
+      },
+      h(
+        'th',
+        { scope: 'row' },
+        design.id,
+        knee ? h('span', { class: 'tag', title: report.knee.how }, 'knee') : null,
+        several ? h('span', { class: 'label' }, design.label) : null,
+      ),
+      columns.map((c) =>
+        h(
+          'td',
+          { class: c.objective ? 'num objective' : 'num' },
+          weak(c.name, c.of(design)),
+          bare(c.name, c.of(design)),
+        ),
+      ),
+    );
     return row;
   }
 
@@ -84,8 +128,10 @@ export function designsTable(report, state) {
       node.setAttribute('aria-sort', active ? (sort.down ? 'descending' : 'ascending') : 'none');
       node.querySelector('.arrow').textContent = active ? (sort.down ? ' \u25bc' : ' \u25b2') : '';
     }
-    status.textContent = brushed === null ? counted(report.designs.length, 'design', 'designs')
-      : `${whole(shown.length)} of ${counted(report.designs.length, 'design', 'designs')} inside the brush`;
+    status.textContent =
+      brushed === null
+        ? counted(report.designs.length, 'design', 'designs')
+        : `${whole(shown.length)} of ${counted(report.designs.length, 'design', 'designs')} inside the brush`;
     refresh();
   }
 
@@ -105,6 +151,28 @@ export function designsTable(report, state) {
   state.on('design', refresh);
   state.on('brushed', arrange);
   arrange();
-  return h('div', { class: 'table-box' }, status, h('div', { class: 'scroll', tabindex: -1 },
-    h('table', { class: 'designs', id: 'designs-table', role: 'grid' }, h('thead', null, h('tr', null, idHead.node, heads.map((x) => x.node))), body)));
+  return h(
+    'div',
+    { class: 'table-box' },
+    status,
+    h(
+      'div',
+      { class: 'scroll', tabindex: -1 },
+      h(
+        'table',
+        { class: 'designs', id: 'designs-table', role: 'grid' },
+        h(
+          'thead',
+          null,
+          h(
+            'tr',
+            null,
+            idHead.node,
+            heads.map((x) => x.node),
+          ),
+        ),
+        body,
+      ),
+    ),
+  );
 }

@@ -62,10 +62,13 @@ export function across(y0, y1, view, x, text, side = 1) {
   const a = view.y(y0);
   const b = view.y(y1);
   const inside = Math.abs(a - b) > 2 * kArrow + 2;
-  const lines = `M${x - 4},${a}h8M${x - 4},${b}h8` +
-    (inside ? `M${x},${a}V${b}` : `M${x},${a + 10}V${b - 10}`);
+  const lines = `M${x - 4},${a}h8M${x - 4},${b}h8` + (inside ? `M${x},${a}V${b}` : `M${x},${a + 10}V${b - 10}`);
   const heads = inside ? arrow(x, a, 0, 1) + arrow(x, b, 0, -1) : arrow(x, a, 0, -1) + arrow(x, b, 0, 1);
-  return s('g', { class: 'dimension' },
-    s('path', { class: 'lines', d: lines }), s('path', { class: 'heads', d: heads }),
-    s('text', { x: x + side * 6, y: (a + b) / 2 + 4, 'text-anchor': side > 0 ? 'start' : 'end' }, text));
+  return s(
+    'g',
+    { class: 'dimension' },
+    s('path', { class: 'lines', d: lines }),
+    s('path', { class: 'heads', d: heads }),
+    s('text', { x: x + side * 6, y: (a + b) / 2 + 4, 'text-anchor': side > 0 ? 'start' : 'end' }, text),
+  );
 }

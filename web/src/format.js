@@ -4,18 +4,32 @@ const kNone = '\u2013';
 const kMinus = '\u2212';
 
 const kMeasures = {
-  efficiency: { title: 'Efficiency', unit: '%', digits: 1, says: 'share of arriving parts that leave in the goal pose' },
+  efficiency: {
+    title: 'Efficiency',
+    unit: '%',
+    digits: 1,
+    says: 'share of arriving parts that leave in the goal pose',
+  },
   purity: { title: 'Purity', unit: '%', digits: 1, says: 'share of leaving parts that are in the goal pose' },
   jam_probability: { title: 'Jams', unit: '%', digits: 1, says: 'share of arriving parts that stay on the track' },
   tolerance_mm: {
-    title: 'Tolerance', unit: 'mm', digits: 3,
+    title: 'Tolerance',
+    unit: 'mm',
+    digits: 3,
     says: 'how far all edges of the voids may be off before an outcome changes',
   },
   margin_mm: {
-    title: 'Margin', unit: 'mm', digits: 3,
+    title: 'Margin',
+    unit: 'mm',
+    digits: 3,
     says: 'the least over poses: distance to tipping if delivered, depth of the loss if rejected',
   },
-  length_mm: { title: 'Length', unit: 'mm', digits: 2, says: 'from the first feature\u2019s start to the last one\u2019s end' },
+  length_mm: {
+    title: 'Length',
+    unit: 'mm',
+    digits: 2,
+    says: 'from the first feature\u2019s start to the last one\u2019s end',
+  },
   feature_count: { title: 'Features', unit: '', digits: 0, says: 'number of features' },
   feed_rate_per_min: { title: 'Feed rate', unit: '/min', digits: 1, says: 'parts a minute at the conveying speed' },
   violation: { title: 'Violation', unit: '', digits: 3, says: 'how far from feasible; 0 is feasible' },
@@ -28,7 +42,10 @@ export function measure(name) {
 
 export function fixed(value, digits) {
   if (value === null || value === undefined) return kNone;
-  const text = Math.abs(value).toLocaleString('en-US', { minimumFractionDigits: digits, maximumFractionDigits: digits });
+  const text = Math.abs(value).toLocaleString('en-US', {
+    minimumFractionDigits: digits,
+    maximumFractionDigits: digits,
+  });
   return value < 0 && Number(text.replaceAll(',', '')) !== 0 ? kMinus + text : text;
 }
 
@@ -53,7 +70,11 @@ export function bare(name, value) {
 export function withUnit(name, value) {
   const { unit } = measure(name);
   if (value === null || value === undefined) return kNone;
-  return unit === '' ? bare(name, value) : unit === '/min' ? `${bare(name, value)} ${unit}` : `${bare(name, value)} ${unit}`;
+  return unit === ''
+    ? bare(name, value)
+    : unit === '/min'
+      ? `${bare(name, value)} ${unit}`
+      : `${bare(name, value)} ${unit}`;
 }
 export function titled(name) {
   const { title, unit } = measure(name);

@@ -16,13 +16,30 @@ export function history(report) {
   if (steps.length === 0) {
     return h('p', { class: 'empty' }, 'No feasible design was found, so there is no course of best values.');
   }
-  return h('div', { class: 'charts', id: 'history' }, report.problem.objectives.map((objective, k) => {
-    const plot = h('div', { class: 'plot' });
-    onWidth(plot, (px) => plot.replaceChildren(chart(report, steps, k, px)), Math.min(3, report.problem.objectives.length));
-    const last = steps[steps.length - 1].best[k];
-    return h('figure', null, h('figcaption', null, `Best ${titled(objective.name).replace(/^./, (c) => c.toLowerCase())}`,
-      h('b', null, ` ${withUnit(objective.name, last)}`)), plot);
-  }));
+  return h(
+    'div',
+    { class: 'charts', id: 'history' },
+    report.problem.objectives.map((objective, k) => {
+      const plot = h('div', { class: 'plot' });
+      onWidth(
+        plot,
+        (px) => plot.replaceChildren(chart(report, steps, k, px)),
+        Math.min(3, report.problem.objectives.length),
+      );
+      const last = steps[steps.length - 1].best[k];
+      return h(
+        'figure',
+        null,
+        h(
+          'figcaption',
+          null,
+          `Best ${titled(objective.name).replace(/^./, (c) => c.toLowerCase())}`,
+          h('b', null, ` ${withUnit(objective.name, last)}`),
+        ),
+        plot,
+      );
+    }),
+  );
 }
 
 function chart(report, steps, k, px) {
@@ -34,14 +51,29 @@ function chart(report, steps, k, px) {
   const factor = measure(name).unit === '%' ? 100 : 1;
   const bottom = s('g', { class: 'axis', transform: `translate(0,${kHeight - kMargin.bottom})` });
   const left = s('g', { class: 'axis', transform: `translate(${kMargin.left},0)` });
-  select(bottom).call(axisBottom(x).ticks(Math.max(2, px / 90)).tickFormat(whole));
-  select(left).call(axisLeft(y).ticks(4).tickFormat((v) => (factor * v).toLocaleString('en-US', { maximumFractionDigits: 3 })));
+  select(bottom).call(
+    axisBottom(x)
+      .ticks(Math.max(2, px / 90))
+      .tickFormat(whole),
+  );
+  select(left).call(
+    axisLeft(y)
+      .ticks(4)
+      .tickFormat((v) => (factor * v).toLocaleString('en-US', { maximumFractionDigits: 3 })),
+  );
   let d = '';
   steps.forEach((step, i) => {
     d += i === 0 ? `M${x(step.evaluations)},${y(step.best[k])}` : `H${x(step.evaluations)}V${y(step.best[k])}`;
   });
   d += `H${x(report.run.evaluations)}`;
-  return s('svg', { viewBox: `0 0 ${px} ${kHeight}`, role: 'img', 'aria-label': `Best ${titled(name)} against evaluations` },
-    bottom, left, s('path', { class: 'curve', d }),
-    steps.length === 1 ? s('circle', { class: 'here', cx: x(steps[0].evaluations), cy: y(steps[0].best[k]), r: 3 }) : null);
+  return s(
+    'svg',
+    { viewBox: `0 0 ${px} ${kHeight}`, role: 'img', 'aria-label': `Best ${titled(name)} against evaluations` },
+    bottom,
+    left,
+    s('path', { class: 'curve', d }),
+    steps.length === 1
+      ? s('circle', { class: 'here', cx: x(steps[0].evaluations), cy: y(steps[0].best[k]), r: 3 })
+      : null,
+  );
 }

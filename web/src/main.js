@@ -27,12 +27,18 @@ const state = makeState({ design: firstDesign(), pose: 0, brushed: null });
 function verdict() {
   const { evaluations, feasible } = report.run;
   const among = `${whole(evaluations)} evaluated ${evaluations === 1 ? 'design' : 'designs'}`;
+  if (evaluations === 0) return ['Nothing has been evaluated yet.', ''];
   if (feasible === 0) {
-    const nearest = report.designs.length === 1 ? 'Below is the nearest one' : `Below are the ${whole(report.designs.length)} nearest ones, each`;
+    const nearest =
+      report.designs.length === 1
+        ? 'Below is the nearest one'
+        : `Below are the ${whole(report.designs.length)} nearest ones, each`;
     return ['No feasible design:', `among ${among} none met the goal. ${nearest} with what is wrong.`];
   }
-  return [counted(report.designs.length, 'non-dominated design', 'non-dominated designs'),
-    `among ${among}, of which ${whole(feasible)} ${feasible === 1 ? 'is' : 'are'} feasible. Better designs may exist: the search is not exhaustive.`];
+  return [
+    counted(report.designs.length, 'non-dominated design', 'non-dominated designs'),
+    `among ${among}, of which ${whole(feasible)} ${feasible === 1 ? 'is' : 'are'} feasible. Better designs may exist: the search is not exhaustive.`,
+  ];
 }
 
 function header() {
@@ -42,9 +48,22 @@ function header() {
   byId('head').append(
     h('p', { class: 'kind' }, `Formotion report \u00b7 ${problem.kind} track`),
     h('h1', null, problem.name),
-    h('p', { class: report.run.feasible ? 'verdict' : 'verdict bad', id: 'verdict' }, h('strong', null, title), ' ', rest),
-    h('p', { class: 'small' }, `${whole(run.evaluations)} of ${whole(run.budget)} evaluations, seed ${run.seed}, ${report.program}`,
-      run.complete ? '' : h('span', { class: 'pill infeasible' }, 'the search has not ended: resume it for the whole')));
+    h(
+      'p',
+      { class: report.run.feasible ? 'verdict' : 'verdict bad', id: 'verdict' },
+      h('strong', null, title),
+      ' ',
+      rest,
+    ),
+    h(
+      'p',
+      { class: 'small' },
+      `${whole(run.evaluations)} of ${whole(run.budget)} evaluations, seed ${run.seed}, ${report.program}`,
+      run.complete
+        ? ''
+        : [' ', h('span', { class: 'pill infeasible' }, 'the search has not ended: resume it for the whole')],
+    ),
+  );
 }
 
 // Resolutions too fine to be seen are not worth a word.
@@ -59,21 +78,43 @@ function designsSection() {
   const found = report.run.feasible > 0;
   byId('designs').append(
     h('h2', { id: 'designs-title' }, found ? 'The front' : 'Nearest to the goal'),
-    ...(report.designs.length === 0 ? [h('p', { class: 'empty' }, 'No design has been evaluated.')] : [
-      h('p', { class: 'small' }, found
-        ? ['Non-dominated: no other evaluated design is better in one of the objectives and worse in none',
-          distinct.length ? `; of those that differ by less than ${distinct.join(', ')}, one stands for all` : '', '. ']
-        : 'None of these may be built as it is; choose one to see what is wrong. ',
-      h('span', { class: 'screen' }, 'Drag over the figure to filter the table; click a mark or a row to see the design.'),
-      report.knee ? h('span', null, ` The knee is the design ${report.knee.how}.`) : ''),
-      h('div', { class: 'front' }, pareto(report, state), designsTable(report, state)),
-    ]));
+    ...(report.designs.length === 0
+      ? [h('p', { class: 'empty' }, 'No design has been evaluated.')]
+      : [
+          h(
+            'p',
+            { class: 'small' },
+            found
+              ? [
+                  'Non-dominated: no other evaluated design is better in one of the objectives and worse in none',
+                  distinct.length
+                    ? `; of those that differ by less than ${distinct.join(', ')}, one stands for all`
+                    : '',
+                  '. ',
+                ]
+              : 'None of these may be built as it is; choose one to see what is wrong. ',
+            h(
+              'span',
+              { class: 'screen' },
+              'Drag over the figure to filter the table; click a mark or a row to see the design.',
+            ),
+            report.knee ? h('span', null, ` The knee is the design ${report.knee.how}.`) : '',
+          ),
+          h('div', { class: 'front-views' }, pareto(report, state), designsTable(report, state)),
+        ]),
+  );
 }
 
 function searchSection() {
-  byId('search').append(h('h2', { id: 'search-title' }, 'How the search went'),
-    h('p', { class: 'small' }, 'Best value of every objective among feasible designs, against evaluations; each alone, no one design has them all.'),
-    history(report));
+  byId('search').append(
+    h('h2', { id: 'search-title' }, 'How the search went'),
+    h(
+      'p',
+      { class: 'small' },
+      'Best value of every objective among feasible designs, against evaluations; each alone, no one design has them all.',
+    ),
+    history(report),
+  );
 }
 
 header();
@@ -81,8 +122,13 @@ byId('asked').append(...asked(report).flat().filter(Boolean));
 designsSection();
 chosenDesign(report, state, byId('chosen'));
 searchSection();
-byId('foot').append(h('p', { class: 'small' },
-  `Made by ${report.program} from ${report.problem.path}. This file is complete in itself; the links lead to designs/ beside it.`));
+byId('foot').append(
+  h(
+    'p',
+    { class: 'small' },
+    `Made by ${report.program} from ${report.problem.path}. This file is complete in itself; the links lead to designs/ beside it.`,
+  ),
+);
 state.on('design', (id) => {
   try {
     window.history.replaceState(null, '', `#${id}`);

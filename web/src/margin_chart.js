@@ -25,7 +25,10 @@ export function marginChart(curve, view, top, height, deciding) {
   let line = '';
   let none = null;
   const endNone = (x) => {
-    if (none !== null) group.append(s('rect', { class: 'none', x: view.x(none), y: top, width: Math.max(1, view.x(x) - view.x(none)), height }));
+    if (none !== null)
+      group.append(
+        s('rect', { class: 'none', x: view.x(none), y: top, width: Math.max(1, view.x(x) - view.x(none)), height }),
+      );
     none = null;
   };
   let pen = 'M';
@@ -42,11 +45,27 @@ export function marginChart(curve, view, top, height, deciding) {
   endNone(curve[curve.length - 1].x);
   group.append(s('path', { class: 'curve', d: line }));
   if (deciding !== null) {
-    group.append(s('line', { class: 'deciding', x1: view.x(deciding), x2: view.x(deciding), y1: top, y2: top + height }));
+    group.append(
+      s('line', { class: 'deciding', x1: view.x(deciding), x2: view.x(deciding), y1: top, y2: top + height }),
+    );
   }
   const axis = s('g', { class: 'axis', transform: `translate(${left},0)` });
-  select(axis).call(axisLeft(y).ticks(4).tickFormat((v) => fixed(v, 1).replace(/\.0$/, '')));
-  const title = s('text', { class: 'axis-title', x: left - 34, y: top + height / 2, 'text-anchor': 'middle', transform: `rotate(-90 ${left - 34} ${top + height / 2})` }, 'margin (mm)');
+  select(axis).call(
+    axisLeft(y)
+      .ticks(4)
+      .tickFormat((v) => fixed(v, 1).replace(/\.0$/, '')),
+  );
+  const title = s(
+    'text',
+    {
+      class: 'axis-title',
+      x: left - 34,
+      y: top + height / 2,
+      'text-anchor': 'middle',
+      transform: `rotate(-90 ${left - 34} ${top + height / 2})`,
+    },
+    'margin (mm)',
+  );
   const dot = s('circle', { class: 'here', r: 4.5 });
   group.append(axis, title, dot);
   return {

@@ -43,19 +43,37 @@ export function poseCards(design, part, width, state) {
 
 function card(result, index, design, pose, width, size, state) {
   const isGoal = index === design.goal_pose;
-  return h('button', {
-    type: 'button', class: `card ${result.outcome}`, 'data-pose': index, title: result.reason,
-    onclick: () => state.set('pose', index),
-  },
+  return h(
+    'button',
+    {
+      type: 'button',
+      class: `card ${result.outcome}`,
+      'data-pose': index,
+      title: result.reason,
+      onclick: () => state.set('pose', index),
+    },
     thumbnail(result, index, design, pose, width, size),
-    h('span', { class: 'facts' },
-      h('span', { class: 'line' }, h('strong', null, poseName(result)), isGoal ? h('span', { class: 'goal' }, 'goal') : null),
-      h('span', { class: 'line' }, badge(result.outcome),
+    h(
+      'span',
+      { class: 'facts' },
+      h(
+        'span',
+        { class: 'line' },
+        h('strong', null, poseName(result)),
+        isGoal ? h('span', { class: 'goal' }, 'goal') : null,
+      ),
+      h(
+        'span',
+        { class: 'line' },
+        badge(result.outcome),
         result.may_catch ? h('span', { class: 'flag' }, '\u26a0 nose may catch') : null,
-        result.marginal ? h('span', { class: 'flag' }, '\u26a0 marginal') : null),
+        result.marginal ? h('span', { class: 'flag' }, '\u26a0 marginal') : null,
+      ),
       h('span', { class: 'line' }, `arrives ${percent(result.prior)}`),
       h('span', { class: 'line' }, marginWords(result)),
-      h('span', { class: 'line small' }, decidedWords(result, design))));
+      h('span', { class: 'line small' }, decidedWords(result, design)),
+    ),
+  );
 }
 
 function thumbnail(result, index, design, pose, width, size) {
@@ -66,7 +84,10 @@ function thumbnail(result, index, design, pose, width, size) {
   const [from, to] = [middle - size.across / 2, middle + size.across / 2];
   const view = makeView(from, size.up, scale, 0, 0);
   const svg = s('svg', {
-    viewBox: `0 0 ${px} ${view.y(0) + 9}`, width: px, class: `thumb ${result.outcome}`, role: 'img',
+    viewBox: `0 0 ${px} ${view.y(0) + 9}`,
+    width: px,
+    class: `thumb ${result.outcome}`,
+    role: 'img',
     'aria-label': `Pose ${poseName(result)} with its centre of mass at x = ${fixed(x, 2)} mm, rotated ${degrees(result.orientation_deg)}`,
   });
   const { group, clip } = drawTrack(design.track, width, from, to, view);
@@ -87,23 +108,54 @@ function thumbnail(result, index, design, pose, width, size) {
 // The part as it arrives, for the page's first section: one picture an aspect, to one scale.
 export function aspectPictures(part) {
   const boxes = part.aspects.map((a) => boxOf([a.footprint.outer_mm, ...a.upper.map((u) => u.outer_mm)]));
-  const scale = Math.min(5, 150 / Math.max(...boxes.map((b) => b.xMax - b.xMin)), 150 / Math.max(...boxes.map((b) => b.yMax - b.yMin)));
+  const scale = Math.min(
+    5,
+    150 / Math.max(...boxes.map((b) => b.xMax - b.xMin)),
+    150 / Math.max(...boxes.map((b) => b.yMax - b.yMin)),
+  );
   return part.aspects.map((aspect, i) => {
     const box = boxes[i];
     const [w, t] = [box.xMax - box.xMin, box.yMax - box.yMin];
     const view = makeView(box.xMin, box.yMax, scale, 40, 8);
     const bottom = view.y(box.yMin);
     const at = { com_y_mm: 0, supported_y_mm: 0 };
-    return h('figure', { class: 'aspect' },
-      s('svg', { viewBox: `0 0 ${w * scale + 52} ${bottom + 26}`, width: w * scale + 52, role: 'img', 'aria-label': `Part, aspect ${aspect.name}` },
+    return h(
+      'figure',
+      { class: 'aspect' },
+      s(
+        'svg',
+        {
+          viewBox: `0 0 ${w * scale + 52} ${bottom + 26}`,
+          width: w * scale + 52,
+          role: 'img',
+          'aria-label': `Part, aspect ${aspect.name}`,
+        },
         s('path', { class: 'area', d: pathOf(loopsOf(aspect.footprint), view.to), 'fill-rule': 'evenodd' }),
         aspect.upper.map((u) => s('path', { class: 'upper', d: pathOf(loopsOf(u), view.to), 'fill-rule': 'evenodd' })),
         drawCentre(at, view, 4),
-        s('g', { class: 'dimension' },
-          s('path', { class: 'lines', d: `M${view.x(box.xMin)},${bottom + 5}v8m0,-4H${view.x(box.xMax)}m0,-4v8` +
-            `M35,${view.y(box.yMin)}h-8m4,0V${view.y(box.yMax)}m-4,0h8` }),
+        s(
+          'g',
+          { class: 'dimension' },
+          s('path', {
+            class: 'lines',
+            d:
+              `M${view.x(box.xMin)},${bottom + 5}v8m0,-4H${view.x(box.xMax)}m0,-4v8` +
+              `M35,${view.y(box.yMin)}h-8m4,0V${view.y(box.yMax)}m-4,0h8`,
+          }),
           s('text', { x: view.x((box.xMin + box.xMax) / 2), y: bottom + 22, 'text-anchor': 'middle' }, fixed(w, 2)),
-          s('text', { x: 20, y: view.y((box.yMin + box.yMax) / 2), 'text-anchor': 'middle', transform: `rotate(-90 20 ${view.y((box.yMin + box.yMax) / 2)})` }, fixed(t, 2)))),
-      h('figcaption', null, `aspect \u201c${aspect.name}\u201d, arrives ${percent(aspect.probability)}`));
+          s(
+            'text',
+            {
+              x: 20,
+              y: view.y((box.yMin + box.yMax) / 2),
+              'text-anchor': 'middle',
+              transform: `rotate(-90 20 ${view.y((box.yMin + box.yMax) / 2)})`,
+            },
+            fixed(t, 2),
+          ),
+        ),
+      ),
+      h('figcaption', null, `aspect \u201c${aspect.name}\u201d, arrives ${percent(aspect.probability)}`),
+    );
   });
 }

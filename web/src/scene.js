@@ -16,7 +16,12 @@ const voidLoops = (track) => track.flatMap((feature) => feature.voids.flatMap(lo
 
 // The metal of the plate between two positions, as path data for the even-odd rule.
 function metalPath(track, width, from, to, view) {
-  const strip = [[from, 0], [to, 0], [to, width], [from, width]];
+  const strip = [
+    [from, 0],
+    [to, 0],
+    [to, width],
+    [from, width],
+  ];
   return pathOf([strip], view.to) + pathOf(voidLoops(track), view.to);
 }
 
@@ -42,14 +47,27 @@ export function drawTrack(track, width, from, to, view) {
   const overlaps = separateVoids(track);
   group.append(
     s('clipPath', { id: clip }, s('path', { d: metalPath(track, width, from, to, view), 'clip-rule': 'evenodd' })),
-    s('clipPath', { id: window }, s('rect', {
-      x: view.x(from), y: view.y(width) - 2, width: (to - from) * view.scale, height: width * view.scale + 4,
-    })),
+    s(
+      'clipPath',
+      { id: window },
+      s('rect', {
+        x: view.x(from),
+        y: view.y(width) - 2,
+        width: (to - from) * view.scale,
+        height: width * view.scale + 4,
+      }),
+    ),
   );
   const inside = s('g', { 'clip-path': `url(#${window})` });
-  inside.append(s('rect', {
-    class: 'metal', x: view.x(from), y: view.y(width), width: (to - from) * view.scale, height: width * view.scale,
-  }));
+  inside.append(
+    s('rect', {
+      class: 'metal',
+      x: view.x(from),
+      y: view.y(width),
+      width: (to - from) * view.scale,
+      height: width * view.scale,
+    }),
+  );
   for (const feature of track) {
     for (const area of feature.voids) {
       inside.append(s('path', { class: 'void', d: pathOf(loopsOf(area), view.to), 'fill-rule': 'evenodd' }));
@@ -68,8 +86,10 @@ export function drawTrack(track, width, from, to, view) {
 // Features may overlap when they are placed absolutely; their cut edges then hide inside each other.
 function separateVoids(track) {
   const boxes = track.map((f) => (f.voids.length ? boxOf(f.voids.map((v) => v.outer_mm)) : null));
-  return boxes.some((a, i) => a && boxes.some((b, j) => j > i && b &&
-    a.xMin < b.xMax && b.xMin < a.xMax && a.yMin < b.yMax && b.yMin < a.yMax));
+  return boxes.some(
+    (a, i) =>
+      a && boxes.some((b, j) => j > i && b && a.xMin < b.xMax && b.xMin < a.xMax && a.yMin < b.yMax && b.yMin < a.yMax),
+  );
 }
 
 function cutEdges(area, owner, track, width, view, overlaps) {
@@ -104,11 +124,17 @@ function contains(area, [x, y]) {
 export function drawWall(from, to, view) {
   const pattern = freshId('hatch');
   const height = Math.max(5, Math.min(10, 3 * view.scale));
-  return s('g', { class: 'wall' },
-    s('pattern', { id: pattern, width: 6, height: 6, patternUnits: 'userSpaceOnUse', patternTransform: 'rotate(45)' },
-      s('line', { x1: 0, y1: 0, x2: 0, y2: 6 })),
+  return s(
+    'g',
+    { class: 'wall' },
+    s(
+      'pattern',
+      { id: pattern, width: 6, height: 6, patternUnits: 'userSpaceOnUse', patternTransform: 'rotate(45)' },
+      s('line', { x1: 0, y1: 0, x2: 0, y2: 6 }),
+    ),
     s('rect', { x: view.x(from), y: view.y(0), width: (to - from) * view.scale, height, fill: `url(#${pattern})` }),
-    s('line', { class: 'face', x1: view.x(from), y1: view.y(0), x2: view.x(to), y2: view.y(0) }));
+    s('line', { class: 'face', x1: view.x(from), y1: view.y(0), x2: view.x(to), y2: view.y(0) }),
+  );
 }
 
 export function dimensionOf(feature, name) {
@@ -125,20 +151,31 @@ function blade(feature, width, from, to, view) {
   if (feature.type === 'wiper') {
     return [s('line', { class: 'blade', x1: view.x(a), y1: view.y(width), x2: view.x(a), y2: view.y(0) })];
   }
-  return [s('rect', {
-    class: 'blade rail', x: view.x(a), y: view.y(width), width: Math.max(1, (b - a) * view.scale), height: width * view.scale,
-  })];
+  return [
+    s('rect', {
+      class: 'blade rail',
+      x: view.x(a),
+      y: view.y(width),
+      width: Math.max(1, (b - a) * view.scale),
+      height: width * view.scale,
+    }),
+  ];
 }
 
 // A part at x = 0 of its own; moved by setting the transform of the answer's nodes.
 export function drawPart(pose, view, clip) {
   const d = pathOf(loopsOf(pose.footprint), view.to);
-  const upper = pose.upper.map((area) => s('path', { class: 'upper', d: pathOf(loopsOf(area), view.to), 'fill-rule': 'evenodd' }));
+  const upper = pose.upper.map((area) =>
+    s('path', { class: 'upper', d: pathOf(loopsOf(area), view.to), 'fill-rule': 'evenodd' }),
+  );
   const whole = s('g', { class: 'part' }, s('path', { class: 'area', d, 'fill-rule': 'evenodd' }));
   const held = s('path', { class: 'supported', d, 'fill-rule': 'evenodd' });
   const rim = s('g', { class: 'part' }, s('path', { class: 'outline', d, 'fill-rule': 'evenodd' }), upper);
   const node = s('g', null, whole, s('g', { 'clip-path': `url(#${clip})` }, held), rim);
-  return { node, move: (x) => [whole, held, rim].forEach((n) => n.setAttribute('transform', `translate(${x * view.scale},0)`)) };
+  return {
+    node,
+    move: (x) => [whole, held, rim].forEach((n) => n.setAttribute('transform', `translate(${x * view.scale},0)`)),
+  };
 }
 
 // The centre of mass as engineers draw it; the supported point as a cross where the two differ.
@@ -148,15 +185,22 @@ export function drawCentre(pose, view, radius) {
   const ys = view.y(pose.supported_y_mm);
   const r = radius;
   const quarter = `M${x},${y}h${r}a${r},${r} 0 0 0 ${-r},${-r}zM${x},${y}h${-r}a${r},${r} 0 0 0 ${r},${r}z`;
-  return s('g', { class: 'centre' },
-    s('circle', { cx: x, cy: y, r }), s('path', { d: quarter }),
-    s('path', { class: 'target', d: `M${x - r - 3},${ys}h${2 * r + 6}M${x},${ys - r - 3}v${2 * r + 6}` }));
+  return s(
+    'g',
+    { class: 'centre' },
+    s('circle', { cx: x, cy: y, r }),
+    s('path', { d: quarter }),
+    s('path', { class: 'target', d: `M${x - r - 3},${ys}h${2 * r + 6}M${x},${ys - r - 3}v${2 * r + 6}` }),
+  );
 }
 
 export function scaleBar(view, x, y) {
   const length = [1, 2, 5, 10, 20, 50, 100].find((mm) => mm * view.scale >= 60) ?? 100;
   const width = length * view.scale;
-  return s('g', { class: 'scale-bar' },
+  return s(
+    'g',
+    { class: 'scale-bar' },
     s('path', { d: `M${x},${y - 4}v4h${width}v-4M${x + width / 2},${y}v-3` }),
-    s('text', { x: x + width + 6, y: y + 1 }, `${length} mm`));
+    s('text', { x: x + width + 6, y: y + 1 }, `${length} mm`),
+  );
 }

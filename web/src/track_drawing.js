@@ -56,7 +56,9 @@ function picture(design, width, px) {
   const floor = view.y(0);
   const height = floor + (xs.length > 2 ? 116 : 82);
   const svg = s('svg', {
-    viewBox: `0 0 ${px} ${height}`, role: 'img', class: 'plan',
+    viewBox: `0 0 ${px} ${height}`,
+    role: 'img',
+    class: 'plan',
     'aria-label': `Track of design ${design.id} seen from above, to scale, dimensions in mm`,
   });
   svg.append(drawTrack(design.track, width, from, to, view).group);
@@ -75,9 +77,14 @@ function picture(design, width, px) {
   if (xs.length > 1) svg.append(chain(xs, view, floor + 12, floor + 36, number));
   if (xs.length > 2) svg.append(chain([xs[0], xs[xs.length - 1]], view, floor + 36, floor + 84, number));
   if (from < 0 && to > 0) {
-    svg.append(s('g', { class: 'datum' },
-      s('path', { d: `M${view.x(0)},${floor + 12}v8l-4,7h8l-4,-7` }),
-      s('text', { x: view.x(0) - 7, y: floor + 25, 'text-anchor': 'end' }, 'x = 0')));
+    svg.append(
+      s(
+        'g',
+        { class: 'datum' },
+        s('path', { d: `M${view.x(0)},${floor + 12}v8l-4,7h8l-4,-7` }),
+        s('text', { x: view.x(0) - 7, y: floor + 25, 'text-anchor': 'end' }, 'x = 0'),
+      ),
+    );
   }
   svg.append(
     s('text', { class: 'note', x: view.x(from) + 2, y: view.y(width) + 14 }, 'free edge'),
@@ -90,7 +97,8 @@ function picture(design, width, px) {
 
 // Corners of cut-outs within the plate, one a height: [x, y] of the one nearest to the drawing's left end.
 function cornerHeights(design, width) {
-  const corners = design.track.flatMap((feature, i) => cornersOf(design.features[i], feature.start_mm))
+  const corners = design.track
+    .flatMap((feature, i) => cornersOf(design.features[i], feature.start_mm))
     .filter(([, y]) => y > kSame_mm && y < width - kSame_mm)
     .sort((a, b) => a[1] - b[1] || a[0] - b[0]);
   const distinctOnes = corners.filter((p, i) => i === 0 || p[1] - corners[i - 1][1] > kSame_mm);
@@ -128,9 +136,12 @@ function placedLabels(design, extents, toX, px) {
 
 function label({ text, at, middle, row }, bottom) {
   const y = 16 + 14 * row;
-  return s('g', { class: 'feature-label' },
+  return s(
+    'g',
+    { class: 'feature-label' },
     s('path', { d: `M${at},${y + 3}V${bottom}` }),
-    s('text', { x: middle, y, 'text-anchor': 'middle' }, text));
+    s('text', { x: middle, y, 'text-anchor': 'middle' }, text),
+  );
 }
 
 // Distances from the wall or the free edge that a type is defined by.
@@ -159,8 +170,11 @@ function numbered(corners, width, view) {
     const away = [corner[0] - middle[0], middle[1] - corner[1]];
     const length = Math.hypot(...away) || 1;
     const [lx, ly] = [x + (12 * away[0]) / length, y + (12 * away[1]) / length];
-    group.append(s('circle', { cx: x, cy: y, r: 2 }), s('circle', { class: 'tag', cx: lx, cy: ly, r: 7 }),
-      s('text', { x: lx, y: ly + 3.5, 'text-anchor': 'middle' }, String(i + 1)));
+    group.append(
+      s('circle', { cx: x, cy: y, r: 2 }),
+      s('circle', { class: 'tag', cx: lx, cy: ly, r: 7 }),
+      s('text', { x: lx, y: ly + 3.5, 'text-anchor': 'middle' }, String(i + 1)),
+    );
   });
   return group;
 }
@@ -172,23 +186,74 @@ export function featureTable(design, width, cutter) {
     const corners = cornersOf(literal, feature.start_mm);
     const open = openings([feature], width).flat();
     const numbers = corners.length
-      ? [h('ol', { class: 'corners' }, corners.map(([x, y]) => h('li', null, `(${fixed(x, 3)}, ${fixed(y, 3)})`,
-          y < -kSame_mm ? ' below the wall\u2019s face' : y > width + kSame_mm ? ' beyond the free edge' : ''))),
-        open.length ? h('div', { class: 'small' }, `crosses the free edge at x = ${distinct(open).map((x) => fixed(x, 3)).join(', ')}`) : null]
+      ? [
+          h(
+            'ol',
+            { class: 'corners' },
+            corners.map(([x, y]) =>
+              h(
+                'li',
+                null,
+                `(${fixed(x, 3)}, ${fixed(y, 3)})`,
+                y < -kSame_mm ? ' below the wall\u2019s face' : y > width + kSame_mm ? ' beyond the free edge' : '',
+              ),
+            ),
+          ),
+          open.length
+            ? h(
+                'div',
+                { class: 'small' },
+                `crosses the free edge at x = ${distinct(open)
+                  .map((x) => fixed(x, 3))
+                  .join(', ')}`,
+              )
+            : null,
+        ]
       : feature.dimensions.length
-        ? feature.dimensions.map(([name, value]) => `${readable(name)} ${short(value, 4)}${name.endsWith('_deg') ? '\u00b0' : ' mm'}`).join(', ')
-        : literal.file ? `as drawn in ${literal.file}` : '';
-    return h('tr', null, h('th', { scope: 'row' }, `${i} ${feature.type}`),
-      h('td', { class: 'num' }, fixed(feature.start_mm, 3)), h('td', { class: 'num' }, fixed(feature.end_mm, 3)),
-      h('td', null, numbers));
+        ? feature.dimensions
+            .map(([name, value]) => `${readable(name)} ${short(value, 4)}${name.endsWith('_deg') ? '\u00b0' : ' mm'}`)
+            .join(', ')
+        : literal.file
+          ? `as drawn in ${literal.file}`
+          : '';
+    return h(
+      'tr',
+      null,
+      h('th', { scope: 'row' }, `${i} ${feature.type}`),
+      h('td', { class: 'num' }, fixed(feature.start_mm, 3)),
+      h('td', { class: 'num' }, fixed(feature.end_mm, 3)),
+      h('td', null, numbers),
+    );
   });
-  return h('div', null,
-    h('table', { class: 'plain', id: 'features' },
-      h('thead', null, h('tr', null, h('th', { scope: 'col' }, 'Feature'), h('th', { scope: 'col', class: 'num' }, 'from x (mm)'),
-        h('th', { scope: 'col', class: 'num' }, 'to x (mm)'), h('th', { scope: 'col' }, 'what is cut (mm)'))),
-      h('tbody', null, rows)),
-    cutter ? h('p', { class: 'small' }, `Inside corners sharper than the cutter (radius ${short(cutter)} mm) are rounded by it: `,
-      'drawn and judged so. Corner coordinates are those before rounding.') : null);
+  return h(
+    'div',
+    null,
+    h(
+      'table',
+      { class: 'plain', id: 'features' },
+      h(
+        'thead',
+        null,
+        h(
+          'tr',
+          null,
+          h('th', { scope: 'col' }, 'Feature'),
+          h('th', { scope: 'col', class: 'num' }, 'from x (mm)'),
+          h('th', { scope: 'col', class: 'num' }, 'to x (mm)'),
+          h('th', { scope: 'col' }, 'what is cut (mm)'),
+        ),
+      ),
+      h('tbody', null, rows),
+    ),
+    cutter
+      ? h(
+          'p',
+          { class: 'small' },
+          `Inside corners sharper than the cutter (radius ${short(cutter)} mm) are rounded by it: `,
+          'drawn and judged so. Corner coordinates are those before rounding.',
+        )
+      : null,
+  );
 }
 
 const readable = (name) => name.replace(/_(mm|deg)$/, '').replaceAll('_', ' ');
