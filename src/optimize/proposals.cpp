@@ -140,14 +140,17 @@ class Proposer {
   void repair(int topology, std::int64_t evaluations) {
     const auto& near = state_.near(topology).members();
     if (near.empty()) return look_elsewhere(topology, evaluations);
-    const Archive::Member& member = random_.pick(near);
+    const NearPool::Member& member = random_.pick(near);
     SearchTask& task =
         add(Driver::Sbplx, topology, evaluations, "towards feasibility from d" + std::to_string(member.number));
     task.start = state_.evaluation(member.number).candidate;
     task.step = step();
     task.merit.focus = random_.pick(smooth_);
     const auto kept = static_cast<std::size_t>(random_.below(static_cast<int>(objective_count()) + 1));
-    if (kept < objective_count()) task.merit.at_most[kept] = member.losses[kept];
+    if (kept < objective_count()) {
+      const Objective& objective = problem_.objectives()[kept];
+      task.merit.at_most[kept] = objective.loss(state_.evaluation(member.number).score.objectives[kept]);
+    }
   }
 
   // From a design of the topology's front along one objective, the others no worse than they are, or than somewhat

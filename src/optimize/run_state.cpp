@@ -9,6 +9,7 @@ namespace {
 constexpr std::size_t kFrontCapacity = 100;
 constexpr std::size_t kTopologyCapacity = 30;
 constexpr std::size_t kNearCapacity = 30;
+constexpr double kNearRadius = 0.1;
 constexpr std::size_t kShownInfeasible = 10;
 
 std::size_t hash_of(const Candidate& candidate) {
@@ -31,9 +32,8 @@ std::vector<double> resolutions_of(const std::vector<Objective>& objectives) {
 RunState::RunState(const Problem& problem)
     : objectives_(problem.objectives().begin(), problem.objectives().end()),
       front_(resolutions_of(objectives_), kFrontCapacity) {
-  std::vector<double> with_violation = resolutions_of(objectives_);
-  with_violation.push_back(0);
-  near_.assign(problem.topologies().size(), Archive(with_violation, kNearCapacity));
+  for (int t = 0; t < static_cast<int>(problem.topologies().size()); ++t) spaces_.emplace_back(problem, t);
+  near_.assign(problem.topologies().size(), NearPool(kNearCapacity, kNearRadius));
   fronts_.assign(problem.topologies().size(), Archive(resolutions_of(objectives_), kTopologyCapacity));
 }
 
@@ -59,14 +59,14 @@ void RunState::fold(const std::vector<Trial>& trials, const std::string& provena
 void RunState::restore(Evaluated evaluated) {
   index_.emplace(hash_of(evaluated.candidate), evaluations_.size());
   const auto topology = static_cast<std::size_t>(evaluated.candidate.topology);
-  std::vector<double> losses = losses_of(evaluated.score);
+  const std::vector<double> losses = losses_of(evaluated.score);
   if (evaluated.score.feasible) {
     ++feasible_;
     fronts_[topology].offer(evaluated.number, losses);
     front_.offer(evaluated.number, losses);
   } else {
-    losses.push_back(evaluated.score.violation);
-    near_[topology].offer(evaluated.number, losses);
+    near_[topology].offer(
+        {evaluated.number, spaces_[topology].unit_of(evaluated.candidate), evaluated.score.violation});
   }
   evaluations_.push_back(std::move(evaluated));
 }
@@ -86,8 +86,8 @@ std::vector<Evaluated> RunState::best_designs() const {
   std::vector<Evaluated> designs;
   for (const Archive::Member& member : front_.members()) designs.push_back(evaluation(member.number));
   if (!designs.empty()) return designs;
-  for (const Archive& near : near_) {
-    for (const Archive::Member& member : near.members()) designs.push_back(evaluation(member.number));
+  for (const NearPool& near : near_) {
+    for (const NearPool::Member& member : near.members()) designs.push_back(evaluation(member.number));
   }
   std::stable_sort(designs.begin(), designs.end(),
                    [](const Evaluated& a, const Evaluated& b) { return a.score.violation < b.score.violation; });

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "optimize/archive.hpp"
+#include "optimize/design_space.hpp"
+#include "optimize/near_pool.hpp"
 #include "optimize/run_summary.hpp"
 #include "optimize/search_task.hpp"
 
@@ -27,8 +29,7 @@ class RunState final : public KnownScores {
   const Archive& front() const { return front_; }
   // The front among one topology's designs: a topology that others dominate today may hold the best ones tomorrow.
   const Archive& front_of(int topology) const { return fronts_[static_cast<std::size_t>(topology)]; }
-  // Infeasible candidates of a topology that are nearest to being feasible, or better in some objective.
-  const Archive& near(int topology) const { return near_[static_cast<std::size_t>(topology)]; }
+  const NearPool& near(int topology) const { return near_[static_cast<std::size_t>(topology)]; }
   const std::vector<RunProgress>& history() const { return history_; }
   std::int64_t batches() const { return static_cast<std::int64_t>(history_.size()); }
 
@@ -43,7 +44,9 @@ class RunState final : public KnownScores {
   std::unordered_multimap<std::size_t, std::size_t> index_;  // hash of the candidate -> place in evaluations_
   std::int64_t feasible_ = 0;
   Archive front_;
-  std::vector<Archive> fronts_, near_;
+  std::vector<DesignSpace> spaces_;
+  std::vector<Archive> fronts_;
+  std::vector<NearPool> near_;
   std::vector<RunProgress> history_;
 };
 

@@ -12,8 +12,8 @@
 namespace formotion {
 
 // What a driver minimises: candidates that are infeasible or break a bound on an objective rank behind all others, by
-// the sum of what they lack; the others rank by one objective (epsilon constraints, Haimes 1971: weighted sums miss the front's
-// hollows).
+// the sum of what they lack; the others rank by one objective (epsilon constraints, Haimes 1971: weighted sums miss the
+// front's hollows).
 struct Merit {
   std::size_t focus = 0;                       // the objective that is improved
   std::vector<std::optional<double>> at_most;  // per objective: the largest allowed loss
