@@ -83,7 +83,8 @@ class Picture:
 
     def square(self, p, fill="#1d5a9e"):
         x, y = self.at(p)
-        self.body.append('<rect x="%.1f" y="%.1f" width="8" height="8" fill="%s" stroke="#fff"/>' % (x - 4, y - 4, fill))
+        self.body.append('<rect x="%.1f" y="%.1f" width="8" height="8" fill="%s" stroke="#fff"/>'
+                         % (x - 4, y - 4, fill))
 
     def diamond(self, p, fill="#c45f00"):
         x, y = self.at(p)
@@ -92,17 +93,17 @@ class Picture:
     def com(self, p):
         x, y = self.at(p)
         self.body.append('<circle cx="%.1f" cy="%.1f" r="5.5" fill="#fff" stroke="#111"/>' % (x, y))
-        for turn in ("0 0", "180 0"):
-            self.body.append('<path d="M%.1f %.1fh5.5a5.5 5.5 0 0 0 -5.5 -5.5Z" fill="#111" transform="rotate(%s %.1f %.1f)"/>'
-                             % (x, y, turn.split()[0], x, y))
+        for turn in (1, -1):  # two opposite quarters
+            self.body.append('<path d="M%.1f %.1fh%.1fa5.5 5.5 0 0 0 %.1f %.1fZ" fill="#111"/>'
+                             % (x, y, 5.5 * turn, -5.5 * turn, -5.5 * turn))
 
     def save(self, name):
         width, height = (self.x1 - self.x0) * self.scale, (self.y1 - self.y0) * self.scale
         folder = os.path.dirname(os.path.abspath(__file__))
         with open(os.path.join(folder, name + ".svg"), "w", encoding="utf-8") as file:
             file.write('<svg xmlns="http://www.w3.org/2000/svg" width="%.0f" height="%.0f" viewBox="0 0 %.0f %.0f" '
-                       'font-family="Helvetica, Arial, sans-serif">\n<rect width="100%%" height="100%%" fill="#fff"/>\n%s\n</svg>\n'
-                       % (width, height, width, height, "\n".join(self.body)))
+                       'font-family="Helvetica, Arial, sans-serif">\n' % (width, height, width, height))
+            file.write('<rect width="100%" height="100%" fill="#fff"/>\n' + "\n".join(self.body) + "\n</svg>\n")
 
 
 # Geometry
@@ -164,7 +165,8 @@ def hull(points):
 def on_metal(loop, void):
     """Points whose hull is that of the part's metal outside of a rectangular void."""
     x0, y0, x1, y1 = void
-    return (clipped(loop, (1, 0), x0) + clipped(loop, (-1, 0), -x1) + clipped(loop, (0, 1), y0) + clipped(loop, (0, -1), -y1))
+    return (clipped(loop, (1, 0), x0) + clipped(loop, (-1, 0), -x1) +
+            clipped(loop, (0, 1), y0) + clipped(loop, (0, -1), -y1))
 
 
 def margin(points, origin):
@@ -255,7 +257,8 @@ def feature_pictures():
     p.save("feature_scallop")
 
     p = window()
-    begin(p, [rectangle(-FAR, 0, FAR, 40), arc(20, 20, 9, 0, 360, 48), [(40, 10), (70, 10), (70, 20), (52, 20), (52, 32), (40, 32)]])
+    el = [(40, 10), (70, 10), (70, 20), (52, 20), (52, 32), (40, 32)]
+    begin(p, [rectangle(-FAR, 0, FAR, 40), arc(20, 20, 9, 0, 360, 48), el])
     p.text((20, 20), "VOID", size=11, dy=4)
     p.text((46, 14), "VOID", size=11)
     p.save("feature_drawing")
@@ -338,7 +341,8 @@ def radius_function():
 
     p = Picture(-32, -6, 122, 50, 4)
     p.box(-FAR, -5, FAR, 0, "wall")
-    for (deg, label), x in zip(((34.800690835, "34.80°, prior 0.411"), (180, "180°, prior 0.343"), (270, "270°, prior 0.245")), (0, 48, 98)):
+    for deg, label, x in ((34.800690835, "34.80°, prior 0.411", 0), (180, "180°, prior 0.343", 48),
+                          (270, "270°, prior 0.245", 98)):
         part, height = posed(L_PART, deg)
         p.path(moved(part, x), "part")
         p.com((x, height))
@@ -394,7 +398,8 @@ def generators():
             p.diamond(q)
     p.com((x, height))
     for i, (draw, text) in enumerate(((p.square, "a corner of the part, on metal: at rest"),
-                                      (lambda q: p.dot(q, 5, "#222"), "a corner of the metal, under the part: moves backwards"),
+                                      (lambda q: p.dot(q, 5, "#222"),
+                                       "a corner of the metal, under the part: moves backwards"),
                                       (p.diamond, "edges that cross: moves along the part's edge"))):
         draw((57, 40 - 3 * i))
         p.text((58.5, 40 - 3 * i), text, "start", size=11, dy=4)
@@ -406,7 +411,7 @@ def travel():
     part, height = posed(L_PART, 270)
     void = (0, -1, 12, 99)
     p = Picture(-17, -9.5, 30, 14, 16)
-    xs = [-14 + i / 200 for i in range(8201)]
+    xs = [-14 + i / 50 for i in range(2051)]
     values = [(x, margin(on_metal(moved(part, x), void), (x, height))[0]) for x in xs]
     lost = [x for x, v in values if v < 0]
 
@@ -420,7 +425,7 @@ def travel():
                 high = middle
         return high
 
-    lost = [change(lost[0] - 0.005, lost[0]), change(lost[-1], lost[-1] + 0.005)]
+    lost = [change(lost[0] - 0.02, lost[0]), change(lost[-1], lost[-1] + 0.02)]
     p.box(lost[0], -6.5, lost[-1], 12, "lost")
     for y in (-5, 0, 5, 10):
         p.line((-14, y), (27, y), "thin" if y else "dim")
@@ -473,7 +478,8 @@ def grown_and_shrunk():
     p = Picture(-14, -5, 70, 44, 5)
     void = [(0, 40), (0, 12), (46, 12), (46, 26), (24, 26), (24, 40)]
     track(p, [(-FAR, 0), (FAR, 0), (FAR, 40), (24, 40), (24, 26), (46, 26), (46, 12), (0, 12), (0, 40), (-FAR, 40)])
-    grown = [(-e, 40)] + arc(0, 12, e, 180, 270) + arc(46, 12, e, 270, 360) + arc(46, 26, e, 0, 90) + [(24 + e, 26 + e), (24 + e, 40)]
+    grown = ([(-e, 40)] + arc(0, 12, e, 180, 270) + arc(46, 12, e, 270, 360) + arc(46, 26, e, 0, 90) +
+             [(24 + e, 26 + e), (24 + e, 40)])
     shrunk = [(e, 40), (e, 12 + e), (46 - e, 12 + e), (46 - e, 26 - e)] + arc(24, 26, e, -90, -180) + [(24 - e, 40)]
     p.path(grown, "cut", closed=False)
     p.path(shrunk, "ghost", closed=False)
@@ -575,9 +581,10 @@ def cutter():
     p = Picture(-14, -5, 96, 44, 5)
     edge = [(40, 40), (40, 10)] + [(0, 10), (0, 40)]
     track(p, [[(-FAR, 0), (FAR, 0), (FAR, 40)] + edge + [(-FAR, 40)], rectangle(48, 12, 84, 30)])
-    for corners in (([(0, 40), (0, 10 + r)] + arc(r, 10 + r, r, 180, 270) + arc(40 - r, 10 + r, r, 270, 360) + [(40, 40)]),
-                    (arc(48 + r, 12 + r, r, 180, 270) + arc(84 - r, 12 + r, r, 270, 360) + arc(84 - r, 30 - r, r, 0, 90) +
-                     arc(48 + r, 30 - r, r, 90, 180) + [(48, 12 + r)])):
+    open_void = [(0, 40), (0, 10 + r)] + arc(r, 10 + r, r, 180, 270) + arc(40 - r, 10 + r, r, 270, 360) + [(40, 40)]
+    closed_void = (arc(48 + r, 12 + r, r, 180, 270) + arc(84 - r, 12 + r, r, 270, 360) +
+                   arc(84 - r, 30 - r, r, 0, 90) + arc(48 + r, 30 - r, r, 90, 180) + [(48, 12 + r)])
+    for corners in (open_void, closed_void):
         p.path(corners, "cut", closed=False)
     p.path(arc(r, 10 + r, r, 0, 360, 60), "dashed", closed=False)
     p.path(arc(48 + r, 30 - r, r, 0, 360, 60), "dashed", closed=False)
@@ -592,5 +599,6 @@ def cutter():
 
 if __name__ == "__main__":
     feature_pictures()
-    for draw in (frame, radius_function, tilt, generators, travel, knife_edge, grown_and_shrunk, void_rule, tipping, mirror, cutter):
+    for draw in (frame, radius_function, tilt, generators, travel, knife_edge, grown_and_shrunk, void_rule, tipping,
+                 mirror, cutter):
         draw()
