@@ -56,7 +56,7 @@ std::vector<Variable> read_variables(const Json* value, IssueList& issues) {
     variable.max = object.required_number("max", kAny);
     variable.value = object.number("value", kAny);
     object.finish();
-    const auto is_number = [&](const char* key) { return bounds.contains(key) && bounds[key].is_number(); };
+    const auto is_number = [&given = bounds](const char* key) { return given.contains(key) && given[key].is_number(); };
     if (!object.valid() || !is_number("min") || !is_number("max")) {
       // said already
     } else if (variable.min > variable.max) {

@@ -14,14 +14,22 @@ struct WallPose {
   Point edge_from, edge_to;    // the resting edge, in the outline's frame, counter-clockwise
 };
 
+struct WallPoseOptions {
+  double tolerance_mm = 1e-9;  // a line through an edge's end, within this, is not stable on that side
+  // A pose that a rise of the centre of mass by less than this leads out of is none. Chords that stand for an arc make
+  // such poses where the arc itself has none: an arc of radius R about a centre at distance c from the centre of mass
+  // has r = c cos + R, which has no minimum there. Above the chord tolerance of imported arcs (0.002 mm).
+  double shallow_mm = 0.0025;
+};
+
 // The part is pressed against the wall y = 0 (it lies in y >= 0) and dragged along +x, with friction f at the wall.
 // points: the part's outline (its convex hull counts), relative to the centre of mass.
 // Frictionless, the poses are the local minima of the radius function r(phi) = max over points of p . u(phi), and its
-// local maxima bound the basins (Goldberg 1993). With friction the wall's force leans back by atan f, so the line through
-// the centre of mass that must meet the resting edge does (derived: moment balance under steady sliding).
-// A line through an edge's end (within tolerance_mm) is not stable: that pose has no basin of its own on that side.
-// Ascending orientation; basins sum to 2 pi. Empty if the centre of mass lies outside the hull so that it never settles.
-std::vector<WallPose> wall_poses(const Loop& points, double friction, double tolerance_mm = 1e-9);
+// local maxima bound the basins (Goldberg 1993). With friction the wall's force leans back by atan f, so the line
+// through the centre of mass that must meet the resting edge does (derived: moment balance under steady sliding).
+// Ascending orientation; basins sum to 2 pi. Empty if the centre of mass lies outside the hull so that it never
+// settles.
+std::vector<WallPose> wall_poses(const Loop& points, double friction, const WallPoseOptions& options = {});
 
 // Poses that a rotation by 2 pi / order maps onto each other become one, of the least orientation.
 std::vector<WallPose> merged_by_symmetry(const std::vector<WallPose>& poses, int order);

@@ -274,8 +274,8 @@ def parts():
 def bad_contours():
     doc = drawing("R2000", 1)
     polyline(doc.modelspace(), EL, closed=False)
-    refuse("open_in_inches", doc, "an open contour on layer 'OUTLINE': its ends (0, 0) mm, in the drawing (0, 0) inches "
-                                  "and (0, 508) mm, in the drawing (0, 20) inches are 508 mm apart")
+    refuse("open_in_inches", doc, "an open contour on layer 'OUTLINE': its ends (0, 0) mm, in the drawing (0, 0) "
+                                  "inches and (0, 508) mm, in the drawing (0, 20) inches are 508 mm apart")
     doc = drawing()
     lines(doc.modelspace(), EL, range(5))
     refuse("open_lines", doc, "its ends (0, 0) mm and (0, 20) mm are 20 mm apart")
@@ -371,10 +371,12 @@ def bad_files():
     refuse("missing_group", section(0, "LINE", 8, 0, 10, 1, 20, 2, 11, 3), "a LINE without group 21")
     refuse("no_radius", section(0, "CIRCLE", 8, 0, 10, 1, 20, 2, 40, -3), "1 CIRCLE with a radius of -3 on layer '0'")
     refuse("far_away", section(0, "CIRCLE", 8, 0, 10, "1e12", 20, 2, 40, 3), "expected a number of at most 1e9 mm")
-    refuse("a_million_chords", section(0, "CIRCLE", 8, 0, 10, 0, 20, 0, 40, "1e9"), "a drawing of more than 1000000 points")
+    refuse("a_million_chords", section(0, "CIRCLE", 8, 0, 10, 0, 20, 0, 40, "1e9"),
+           "a drawing of more than 1000000 points")
     # 90 lies about the number of corners: the corners that are there count.
     corners = [g for x, y in EL for g in (10, x, 20, y)]
-    (HERE / "good" / "corner_count_lies.dxf").write_bytes(section(0, "LWPOLYLINE", 8, "OUTLINE", 90, 2000000000, 70, 1, *corners))
+    lying = section(0, "LWPOLYLINE", 8, "OUTLINE", 90, 2000000000, 70, 1, *corners)
+    (HERE / "good" / "corner_count_lies.dxf").write_bytes(lying)
     good.append({"name": "corner_count_lies", "contours": [as_one(EL)]})
 
 
