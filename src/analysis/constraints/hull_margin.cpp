@@ -1,5 +1,6 @@
 #include "analysis/constraints/hull_margin.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -9,6 +10,8 @@ namespace formotion {
 namespace {
 
 bool before(const Point& a, const Point& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); }
+
+constexpr std::size_t kFew = 16;  // sorted by insertion even without an order to begin with
 
 // Insertion sort: the order is kept between calls and changes little.
 void sort_by_x(std::span<const Point> points, std::vector<int>& order) {
@@ -21,7 +24,7 @@ void sort_by_x(std::span<const Point> points, std::vector<int>& order) {
 }
 
 // Andrew's monotone chain over sorted points; indices of the hull, counter-clockwise.
-int hull_indices(std::span<const Point> points, const std::vector<int>& order, int* hull) {
+int hull_indices(std::span<const Point> points, std::span<const int> order, int* hull) {
   int size = 0;
   const auto turns_left = [&](int a, int b, int c) { return cross(points[b] - points[a], points[c] - points[a]) > 0; };
   const int n = static_cast<int>(order.size());
@@ -68,21 +71,14 @@ HullMargin outside(std::span<const Point> points, const int* hull, int size) {
 
 }  // namespace
 
-HullMargin hull_margin(std::span<const Point> points, std::vector<int>& order) {
-  if (order.size() != points.size()) {
-    order.resize(points.size());
-    std::iota(order.begin(), order.end(), 0);
-  }
-  sort_by_x(points, order);
-  constexpr std::size_t kInPlace = 64;
-  std::array<int, 2 * kInPlace + 2> few;
-  std::vector<int> many;
-  int* hull = few.data();
-  if (points.size() > kInPlace) {
-    many.resize(2 * points.size() + 2);
-    hull = many.data();
-  }
-  const int size = hull_indices(points, order, hull);
+void hull_of_sorted(std::span<const Point> points, std::span<const int> order, std::vector<int>& hull) {
+  hull.resize(2 * order.size() + 2);
+  hull.resize(static_cast<std::size_t>(hull_indices(points, order, hull.data())));
+}
+
+HullMargin margin_of_hull(std::span<const Point> points, std::span<const int> corners) {
+  const int* hull = corners.data();
+  const int size = static_cast<int>(corners.size());
   if (size == 1 || (size == 2 && points[hull[0]] == points[hull[1]])) {
     return {-points[hull[0]].norm(), hull[0], hull[0], true, -1, -1};
   }
@@ -110,6 +106,20 @@ HullMargin hull_margin(std::span<const Point> points, std::vector<int>& order) {
   if (result.from < 0) return outside(points, hull, size);  // on a corner, but for rounding
   result.margin_mm = std::sqrt(least);
   return result;
+}
+
+HullMargin hull_margin(std::span<const Point> points, std::vector<int>& order) {
+  if (order.size() != points.size()) {
+    order.resize(points.size());
+    std::iota(order.begin(), order.end(), 0);
+    if (order.size() > kFew) {
+      std::sort(order.begin(), order.end(), [&](int a, int b) { return before(points[a], points[b]); });
+    }
+  }
+  sort_by_x(points, order);
+  thread_local std::vector<int> hull;
+  hull_of_sorted(points, order, hull);
+  return margin_of_hull(points, hull);
 }
 
 HullMargin hull_margin(std::span<const Point> points) {

@@ -23,4 +23,9 @@ struct HullMargin {
 HullMargin hull_margin(std::span<const Point> points, std::vector<int>& order);
 HullMargin hull_margin(std::span<const Point> points);
 
+// Its two halves. Corners of the hull, counter-clockwise, of the points that order lists by ascending x, then y;
+// and the margin of a convex polygon whose corners are listed counter-clockwise.
+void hull_of_sorted(std::span<const Point> points, std::span<const int> order, std::vector<int>& hull);
+HullMargin margin_of_hull(std::span<const Point> points, std::span<const int> corners);
+
 }  // namespace formotion

@@ -49,11 +49,11 @@ Loop support_generators(const Polygon& part, const Track& track, double toleranc
 
   for_edges(part, [&](const Point& a, const Point&) { add_if_common(a); });
   // Lines of the strip's edges, as long as the part needs them.
-  const std::array<std::array<Point, 2>, 2> rims{{{Point(lo.x(), 0), Point(hi.x(), 0)},
-                                                  {Point(lo.x(), track.width_mm), Point(hi.x(), track.width_mm)}}};
-  for (const auto& [c, d] : rims) {
+  const std::array<std::array<Point, 2>, 2> rims{
+      {{Point(lo.x(), 0), Point(hi.x(), 0)}, {Point(lo.x(), track.width_mm), Point(hi.x(), track.width_mm)}}};
+  for (const auto& rim : rims) {
     for_edges(part, [&](const Point& a, const Point& b) {
-      if (const auto p = crossing(a, b, c, d)) add_if_common(*p);
+      if (const auto p = crossing(a, b, rim[0], rim[1])) add_if_common(*p);
     });
   }
   for (const Polygon& hole : track.voids) {
@@ -72,7 +72,8 @@ Loop support_generators(const Polygon& part, const Track& track, double toleranc
   return points;
 }
 
-std::optional<double> support_margin(const Polygon& part, const Track& track, const Point& supported_point, double tolerance_mm) {
+std::optional<double> support_margin(const Polygon& part, const Track& track, const Point& supported_point,
+                                     double tolerance_mm) {
   Loop points = support_generators(part, track, tolerance_mm);
   if (points.empty()) return std::nullopt;
   for (Point& p : points) p -= supported_point;

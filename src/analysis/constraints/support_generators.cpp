@@ -9,6 +9,8 @@ namespace {
 
 using Edge = EdgeSet::Edge;
 
+constexpr double kShortestLife_mm = 1e-12;  // lives shorter than this are rounding
+
 // Corners at which the area to the left turns by this sense: +1 convex, -1 reflex.
 std::vector<Point> corners_turning(const std::vector<Loop>& loops, double sense) {
   std::vector<Point> corners;
@@ -32,7 +34,8 @@ void line_crossings(const EdgeSet& set, double y, std::vector<double>& xs) {
 }
 
 bool has_end_near(const EdgeSet& set, double y) {
-  return std::any_of(set.edges.begin(), set.edges.end(), [&](const Edge& e) { return std::abs(e.a.y() - y) <= kHeightTolerance_mm; });
+  return std::any_of(set.edges.begin(), set.edges.end(),
+                     [&](const Edge& e) { return std::abs(e.a.y() - y) <= kHeightTolerance_mm; });
 }
 
 struct Slice {
@@ -49,7 +52,8 @@ void open_slice(const EdgeSet& set, double y, Slice& slice) {
   line_crossings(set, y + kHeightTolerance_mm, slice.above);
   for (std::size_t i = 0; i + 1 < slice.below.size(); i += 2) {
     for (std::size_t j = 0; j + 1 < slice.above.size(); j += 2) {
-      const double from = std::max(slice.below[i], slice.above[j]), to = std::min(slice.below[i + 1], slice.above[j + 1]);
+      const double from = std::max(slice.below[i], slice.above[j]),
+                   to = std::min(slice.below[i + 1], slice.above[j + 1]);
       if (from < to) slice.xs.insert(slice.xs.end(), {from, to});
     }
   }
@@ -99,8 +103,10 @@ class Collector {
   void rest(double x_in, double x_out, const Point& p) {
     if (x_out >= x_in) set_.generators.push_back({x_in, x_out, p, Point::Zero(), false});
   }
+  // Short lives count: without their ends, a chain of short edges would leave a gap in the lives that is long enough to
+  // be looked at.
   void move(double x_in, double x_out, const Point& p, const Point& velocity) {
-    if (x_out - x_in > kEventTolerance_mm) set_.generators.push_back({x_in, x_out, p, velocity, true});
+    if (x_out - x_in > kShortestLife_mm) set_.generators.push_back({x_in, x_out, p, velocity, true});
   }
 
   // At rest; lives while it is not over a void.
@@ -123,17 +129,21 @@ class Collector {
     }
   }
 
+  // Lives end where those of the neighbouring edges begin, bit for bit: at the ends of the edge, though these may
+  // differ a little in height.
   void on_horizontal_rim(const Edge& p, const Edge& rim) {
     const double y = 0.5 * (rim.a.y() + rim.b.y()) - part_.supported_y_mm;
-    const double x = p.x_at(y);
-    rest(std::min(rim.a.x(), rim.b.x()) - x, std::max(rim.a.x(), rim.b.x()) - x, {x, y});
+    const double at_a = rim.a.x() - p.x_at(rim.a.y() - part_.supported_y_mm);
+    const double at_b = rim.b.x() - p.x_at(rim.b.y() - part_.supported_y_mm);
+    rest(std::min(at_a, at_b), std::max(at_a, at_b), {p.x_at(y), y});
   }
 
   void on_horizontal_part_edge(const Edge& p, const Edge& e) {
-    const double y = 0.5 * (p.a.y() + p.b.y());
-    const double x = e.x_at(y + part_.supported_y_mm);
-    const double left = std::min(p.a.x(), p.b.x()), right = std::max(p.a.x(), p.b.x());
-    move(x - right, x - left, {right, y}, {-1, 0});
+    const double at_a = e.x_at(p.a.y() + part_.supported_y_mm) - p.a.x();
+    const double at_b = e.x_at(p.b.y() + part_.supported_y_mm) - p.b.x();
+    const double life = std::abs(at_b - at_a);
+    if (life <= kShortestLife_mm) return;
+    at_a < at_b ? move(at_a, at_b, p.a, (p.b - p.a) / life) : move(at_b, at_a, p.b, (p.a - p.b) / life);
   }
 
   void on_slanted_edges(const Edge& p, const Edge& e, double y_low, double y_high) {
@@ -141,7 +151,7 @@ class Collector {
     const Point low(p.x_at(y_low), y_low), high(p.x_at(y_high), y_high);
     const double at_low = e.x_at(y_low + part_.supported_y_mm) - low.x();
     const double at_high = e.x_at(y_high + part_.supported_y_mm) - high.x();
-    if (std::abs(at_high - at_low) <= kEventTolerance_mm) return;  // parallel: they meet at one position only
+    if (std::abs(at_high - at_low) <= kShortestLife_mm) return;  // parallel: they meet at one position only
     const Point velocity = (high - low) / (at_high - at_low);
     at_low < at_high ? move(at_low, at_high, low, velocity) : move(at_high, at_low, high, velocity);
   }
@@ -151,6 +161,17 @@ class Collector {
     std::iota(set_.by_start.begin(), set_.by_start.end(), 0);
     std::sort(set_.by_start.begin(), set_.by_start.end(),
               [&](int a, int b) { return set_.generators[a].x_in < set_.generators[b].x_in; });
+    set_.resting_by_x.clear();
+    for (const int g : set_.by_start) {
+      if (!set_.generators[g].moving) set_.resting_by_x.push_back(g);
+    }
+    std::sort(set_.resting_by_x.begin(), set_.resting_by_x.end(), [&](int a, int b) {
+      const Point &p = set_.generators[a].position, &q = set_.generators[b].position;
+      return p.x() < q.x() || (p.x() == q.x() && p.y() < q.y());
+    });
+    set_.by_end = set_.by_start;
+    std::sort(set_.by_end.begin(), set_.by_end.end(),
+              [&](int a, int b) { return set_.generators[a].x_out < set_.generators[b].x_out; });
     set_.events.assign({start_, stop_});
     for (const Generator& g : set_.generators) {
       if (g.x_in > start_) set_.events.push_back(g.x_in);

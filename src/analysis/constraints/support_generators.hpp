@@ -15,8 +15,10 @@ struct Generator {
 
 struct GeneratorSet {
   std::vector<Generator> generators;
-  std::vector<int> by_start;   // ascending x_in
-  std::vector<double> events;  // ascending, from where the part is wholly before the voids to wholly behind
+  std::vector<int> by_start;      // ascending x_in
+  std::vector<int> by_end;        // ascending x_out
+  std::vector<int> resting_by_x;  // those at rest, by ascending x, then y
+  std::vector<double> events;     // ascending, from where the part is wholly before the voids to wholly behind
 };
 
 // Clears and fills set (its memory is kept between calls).

@@ -15,33 +15,68 @@ double wrapped(double angle) {  // [0, 2 pi), with 2 pi - rounding taken as 0
   return kTurn - angle < 1e-12 ? 0 : angle + 0.0;  // no -0
 }
 
-// An unstable equilibrium between two poses.
-struct Bound {
-  double orientation_rad = 0;
-  double height_mm = 0;  // of the centre of mass, along the leaning line
+// The work that leads out of a pose to the unstable equilibrium on either side, over the weight (mm). Without friction
+// that is the rise of the centre of mass. While a corner p is on the wall the work is |p| (1 - cos) of the angle to the
+// orientation in which p balances (derived: the moment about p of a force along the leaning line).
+struct WaysOut {
+  double behind_mm = 0, ahead_mm = 0;  // to the bound of smaller, of larger orientation
 };
 
-// Poses out of which a rise of less than shallow_mm leads are none: their basin goes to the neighbour on that side.
-// lean: by how much the leaning line is longer than its height. bounds[i] and bounds[i + 1] enclose poses[i].
-void give_up_shallow(std::vector<WallPose>& poses, std::vector<Bound>& bounds, double lean, double shallow_mm) {
+// Orientation in which the leaning line through the centre of mass meets corner p on the wall.
+double balance(const Point& p, double friction) {
+  return -0.5 * std::numbers::pi + std::atan(friction) - std::atan2(p.y(), p.x());
+}
+
+// The work from where corner k touches the wall beside its edge at this orientation, turning in this sense (+1: over
+// corners k, k - 1, ...; -1: over k, k + 1, ...), up to the first corner that balances.
+double work_out(const Loop& hull, std::size_t k, double orientation, int sense, double friction) {
+  const std::size_t n = hull.size();
+  double work = 0;
+  for (std::size_t steps = 0; steps < n; ++steps) {
+    const Point& p = hull[k];
+    const std::size_t next = sense > 0 ? (k + n - 1) % n : (k + 1) % n;
+    const Point in = p - hull[(k + n - 1) % n], out = hull[(k + 1) % n] - p;
+    const double turn = std::atan2(cross(in, out), in.dot(out));
+    // Signed by the sense of turning: how far ahead the corner balances.
+    const double ahead = sense * std::remainder(balance(p, friction) - orientation, kTurn);
+    if (ahead >= 0 && ahead <= turn) return work + p.norm() * (1 - std::cos(ahead));
+    work += p.norm() * (std::cos(ahead - turn) - std::cos(ahead));
+    orientation += sense * turn;
+    k = next;
+  }
+  return work;
+}
+
+// Poses out of which less work than shallow_mm leads are none: their basin goes to the neighbour on that side.
+// bounds[i] and bounds[i + 1] enclose poses[i].
+void give_up_shallow(std::vector<WallPose>& poses, std::vector<double>& bounds, std::vector<WaysOut>& ways,
+                     double shallow_mm) {
   while (poses.size() > 1) {
-    std::size_t pose = 0, way_out = 0;
+    std::size_t pose = 0;
     double least = shallow_mm;
+    bool is_ahead = false;
     for (std::size_t i = 0; i < poses.size(); ++i) {
-      for (const std::size_t bound : {i, (i + 1) % bounds.size()}) {
-        const double rise = bounds[bound].height_mm - lean * poses[i].com_wall_mm;
-        if (rise >= least) continue;
-        least = rise;
+      for (const bool ahead : {false, true}) {
+        const double work = ahead ? ways[i].ahead_mm : ways[i].behind_mm;
+        if (work >= least) continue;
+        least = work;
         pose = i;
-        way_out = bound;
+        is_ahead = ahead;
       }
     }
     if (least >= shallow_mm) return;
-    poses.erase(poses.begin() + static_cast<std::ptrdiff_t>(pose));
-    bounds.erase(bounds.begin() + static_cast<std::ptrdiff_t>(way_out));
-    if (bounds.front().orientation_rad > poses.front().orientation_rad) {
-      bounds.insert(bounds.begin(), bounds.back());
-      bounds.front().orientation_rad -= kTurn;
+    const std::size_t count = poses.size();
+    if (is_ahead) {
+      ways[(pose + 1) % count].behind_mm += ways[pose].behind_mm - ways[pose].ahead_mm;
+    } else {
+      ways[(pose + count - 1) % count].ahead_mm += ways[pose].ahead_mm - ways[pose].behind_mm;
+    }
+    const auto at = static_cast<std::ptrdiff_t>(pose);
+    poses.erase(poses.begin() + at);
+    ways.erase(ways.begin() + at);
+    bounds.erase(bounds.begin() + static_cast<std::ptrdiff_t>((pose + is_ahead) % count));
+    if (bounds.front() > poses.front().orientation_rad) {
+      bounds.insert(bounds.begin(), bounds.back() - kTurn);
       bounds.pop_back();
     }
   }
@@ -74,34 +109,36 @@ std::vector<WallPose> wall_poses(const Loop& points, double friction, const Wall
             [](const WallPose& a, const WallPose& b) { return a.orientation_rad < b.orientation_rad; });
 
   // Unstable equilibria: corners from which the part falls back onto the edge behind and forward onto the edge ahead.
-  std::vector<Bound> bounds;
+  std::vector<double> bounds;
   for (std::size_t i = 0; i < n; ++i) {
     const Point& p = hull[i];
     const Point& before = hull[(i + n - 1) % n];
     const Point& after = hull[(i + 1) % n];
     const bool falls_back = foot_on(before, p) < (p - before).norm() - tolerance_mm;
     const bool falls_forward = foot_on(p, after) > tolerance_mm;
-    if (falls_back && falls_forward) {
-      bounds.push_back({wrapped(-0.5 * std::numbers::pi + std::atan(friction) - std::atan2(p.y(), p.x())), p.norm()});
-    }
+    if (falls_back && falls_forward) bounds.push_back(wrapped(balance(p, friction)));
   }
   if (poses.empty()) return poses;
   if (bounds.size() != poses.size()) {  // a single pose without a way out of it
     poses.front().basin_rad = kTurn;
     return {poses.front()};
   }
-  std::sort(bounds.begin(), bounds.end(),
-            [](const Bound& a, const Bound& b) { return a.orientation_rad < b.orientation_rad; });
+  std::sort(bounds.begin(), bounds.end());
   // Turned so that pose i lies between bounds i and i + 1.
-  while (bounds.front().orientation_rad > poses.front().orientation_rad) {
-    bounds.insert(bounds.begin(), bounds.back());
-    bounds.front().orientation_rad -= kTurn;
+  while (bounds.front() > poses.front().orientation_rad) {
+    bounds.insert(bounds.begin(), bounds.back() - kTurn);
     bounds.pop_back();
   }
-  give_up_shallow(poses, bounds, std::hypot(1, friction), options.shallow_mm);
+  std::vector<WaysOut> ways;
+  for (const WallPose& pose : poses) {
+    const auto from = static_cast<std::size_t>(std::find(hull.begin(), hull.end(), pose.edge_from) - hull.begin());
+    ways.push_back({work_out(hull, (from + 1) % n, pose.orientation_rad, -1, friction),
+                    work_out(hull, from, pose.orientation_rad, +1, friction)});
+  }
+  give_up_shallow(poses, bounds, ways, options.shallow_mm);
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const double upper = i + 1 < bounds.size() ? bounds[i + 1].orientation_rad : bounds.front().orientation_rad + kTurn;
-    poses[i].basin_rad = upper - bounds[i].orientation_rad;
+    const double upper = i + 1 < bounds.size() ? bounds[i + 1] : bounds.front() + kTurn;
+    poses[i].basin_rad = upper - bounds[i];
   }
   return poses;
 }
