@@ -8,7 +8,8 @@ namespace formotion {
 
 int run_evaluate(const DesignChoice& choice) {
   const ChosenDesign chosen = chosen_design(choice);
-  OrderedJson json = evaluation_json(*chosen.problem, chosen.topology, chosen.values);
+  OrderedJson json = evaluation_json(*chosen.problem, chosen.topology, chosen.values,
+                                     chosen.problem->evaluate(chosen.topology, chosen.values));
   json["topology"] = chosen.topology;
   json["features"] = features_json(chosen.problem->literal_design(chosen.topology, chosen.values));
   std::cout << json.dump(2) << "\n";

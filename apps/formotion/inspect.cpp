@@ -45,9 +45,9 @@ int run_report(const std::string& folder, const std::string& format) {
   const LoadedRun loaded(folder);
   const RunSummary run = loaded.run();
   if (format == "csv") {
-    std::cout << designs_csv(loaded.problem, run);
+    std::cout << designs_csv(loaded.problem, judged(loaded.problem, run.front));
   } else if (format == "json") {
-    std::cout << report_data(loaded.file, loaded.problem, run).dump(1) << "\n";
+    std::cout << report_data(loaded.file, loaded.problem, run, judged(loaded.problem, run.front)).dump(1) << "\n";
   } else {
     write_run_files(folder, loaded.file, loaded.problem, run);
     std::cout << (std::filesystem::path(folder) / "report.html").string() << "\n";
@@ -67,12 +67,13 @@ int run_export(const std::string& folder, const std::string& design, const std::
     throw InputError({{folder, "", false, "no design '" + design + "'" + did_you_mean(design, ids),
                        "an id of the front: " + list + (ids.size() > 10 ? ", ..." : "")}});
   }
+  const JudgedDesign chosen = judged(loaded.problem, *found);
   if (format == "svg") {
-    std::cout << design_svg(loaded.file, loaded.problem, *found);
+    std::cout << design_svg(loaded.file, loaded.problem, chosen);
   } else if (format == "dxf") {
-    std::cout << design_dxf(loaded.file, loaded.problem, *found);
+    std::cout << design_dxf(loaded.file, loaded.problem, chosen);
   } else {
-    std::cout << design_json(loaded.problem, *found).dump(1) << "\n";
+    std::cout << design_json(loaded.problem, chosen).dump(1) << "\n";
   }
   return kDone;
 }

@@ -108,8 +108,8 @@ Json violations_json(const std::vector<Violation>& violations) {
   return json;
 }
 
-Json evaluation_json(const FeederProblem& problem, int topology, std::span<const double> values) {
-  const FeederEvaluation evaluation = problem.evaluate(topology, values);
+Json evaluation_json(const FeederProblem& problem, int topology, std::span<const double> values,
+                     const FeederEvaluation& evaluation) {
   Json json{{"formotion", 1}, {"kind", "feeder"}, {"feasible", evaluation.feasible}};
   json["violations"] = violations_json(evaluation.violations);
   json["warnings"] = evaluation.warnings;

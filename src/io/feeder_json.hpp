@@ -11,7 +11,8 @@ namespace formotion {
 using OrderedJson = nlohmann::ordered_json;
 
 // The answer of `evaluate` (format, kind, feasibility, values, metrics, poses, ...).
-OrderedJson evaluation_json(const feeder::FeederProblem& problem, int topology, std::span<const double> values);
+OrderedJson evaluation_json(const feeder::FeederProblem& problem, int topology, std::span<const double> values,
+                            const feeder::FeederEvaluation& evaluation);
 
 OrderedJson metrics_json(const feeder::Metrics& metrics);
 OrderedJson violations_json(const std::vector<feeder::Violation>& violations);

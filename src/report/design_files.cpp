@@ -16,13 +16,12 @@ std::string fixed(double value, int digits) {
   return out.str();
 }
 
-TrackDrawing drawing_of(const ProblemFile& file, const feeder::FeederProblem& problem, const Evaluated& design) {
-  const std::vector<double> values = problem.all_values(design.candidate);
-  const feeder::FeederEvaluation evaluation = problem.evaluate(design.candidate.topology, values);
+TrackDrawing drawing_of(const ProblemFile& file, const feeder::FeederProblem& problem, const JudgedDesign& judged) {
+  const feeder::FeederEvaluation& evaluation = judged.evaluation;
   TrackDrawing drawing;
-  drawing.title = file.name + ", design " + design_id(design);
+  drawing.title = file.name + ", design " + design_id(judged.design);
   drawing.track_width_mm = problem.spec().environment.track_width_mm;
-  drawing.features = problem.place(design.candidate.topology, values);
+  drawing.features = problem.place(judged.design.candidate.topology, judged.values);
   if (evaluation.goal_pose >= 0) {
     const feeder::PoseResult& goal = evaluation.poses[static_cast<std::size_t>(evaluation.goal_pose)];
     drawing.notes.push_back("delivers " + goal.aspect + " " + fixed(goal.orientation_rad * 180 / std::numbers::pi, 2) +
@@ -39,25 +38,36 @@ TrackDrawing drawing_of(const ProblemFile& file, const feeder::FeederProblem& pr
 
 }  // namespace
 
-OrderedJson design_json(const feeder::FeederProblem& problem, const Evaluated& design) {
-  const int topology = design.candidate.topology;
-  const std::vector<double> values = problem.all_values(design.candidate);
-  const OrderedJson evaluation = evaluation_json(problem, topology, values);
-  OrderedJson json{{"id", design_id(design)}, {"topology", topology}};
+JudgedDesign judged(const feeder::FeederProblem& problem, const Evaluated& design) {
+  std::vector<double> values = problem.all_values(design.candidate);
+  feeder::FeederEvaluation evaluation = problem.evaluate(design.candidate.topology, values);
+  return {design, std::move(values), std::move(evaluation)};
+}
+
+std::vector<JudgedDesign> judged(const feeder::FeederProblem& problem, const std::vector<Evaluated>& designs) {
+  std::vector<JudgedDesign> all;
+  for (const Evaluated& design : designs) all.push_back(judged(problem, design));
+  return all;
+}
+
+OrderedJson design_json(const feeder::FeederProblem& problem, const JudgedDesign& judged) {
+  const int topology = judged.design.candidate.topology;
+  const OrderedJson evaluation = evaluation_json(problem, topology, judged.values, judged.evaluation);
+  OrderedJson json{{"id", design_id(judged.design)}, {"topology", topology}};
   json["label"] = problem.topologies()[static_cast<std::size_t>(topology)].label;
   json["feasible"] = evaluation["feasible"];
-  json["features"] = features_json(problem.literal_design(topology, values));
+  json["features"] = features_json(problem.literal_design(topology, judged.values));
   for (const char* key : {"values", "metrics", "worst_case", "violations"}) json[key] = evaluation[key];
-  json["provenance"] = design.provenance;
+  json["provenance"] = judged.design.provenance;
   return json;
 }
 
-std::string design_svg(const ProblemFile& file, const feeder::FeederProblem& problem, const Evaluated& design) {
-  return track_svg(drawing_of(file, problem, design));
+std::string design_svg(const ProblemFile& file, const feeder::FeederProblem& problem, const JudgedDesign& judged) {
+  return track_svg(drawing_of(file, problem, judged));
 }
 
-std::string design_dxf(const ProblemFile& file, const feeder::FeederProblem& problem, const Evaluated& design) {
-  return track_dxf(drawing_of(file, problem, design));
+std::string design_dxf(const ProblemFile& file, const feeder::FeederProblem& problem, const JudgedDesign& judged) {
+  return track_dxf(drawing_of(file, problem, judged));
 }
 
 }  // namespace formotion

@@ -11,9 +11,19 @@
 
 namespace formotion {
 
+// A design judged in detail, once for all that is written of it.
+struct JudgedDesign {
+  Evaluated design;
+  std::vector<double> values;  // of all the problem's variables
+  feeder::FeederEvaluation evaluation;
+};
+
+JudgedDesign judged(const feeder::FeederProblem& problem, const Evaluated& design);
+std::vector<JudgedDesign> judged(const feeder::FeederProblem& problem, const std::vector<Evaluated>& designs);
+
 // A valid design file that also says where it comes from and what it scored.
-OrderedJson design_json(const feeder::FeederProblem& problem, const Evaluated& design);
-std::string design_svg(const ProblemFile& file, const feeder::FeederProblem& problem, const Evaluated& design);
-std::string design_dxf(const ProblemFile& file, const feeder::FeederProblem& problem, const Evaluated& design);
+OrderedJson design_json(const feeder::FeederProblem& problem, const JudgedDesign& judged);
+std::string design_svg(const ProblemFile& file, const feeder::FeederProblem& problem, const JudgedDesign& judged);
+std::string design_dxf(const ProblemFile& file, const feeder::FeederProblem& problem, const JudgedDesign& judged);
 
 }  // namespace formotion

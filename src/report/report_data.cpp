@@ -209,11 +209,12 @@ class DesignWriter {
     return static_cast<int>(parts_.size()) - 1;
   }
 
-  Json operator()(const Evaluated& design) {
+  Json operator()(const JudgedDesign& judged) {
+    const Evaluated& design = judged.design;
+    const std::vector<double>& values = judged.values;
     const int topology = design.candidate.topology;
-    const std::vector<double> values = problem_.all_values(design.candidate);
     const std::vector<PosePicture> pictures = travel_pictures(problem_, topology, values);
-    Json evaluation = evaluation_json(problem_, topology, values);
+    Json evaluation = evaluation_json(problem_, topology, values, judged.evaluation);
     round_all(evaluation);
     Json json{{"id", design_id(design)}, {"number", design.number}, {"topology", topology}};
     json["label"] = problem_.topologies()[static_cast<std::size_t>(topology)].label;
@@ -270,7 +271,8 @@ Json knee_json(const FeederProblem& problem, const RunSummary& run) {
 
 }  // namespace
 
-Json report_data(const ProblemFile& file, const FeederProblem& problem, const RunSummary& run) {
+Json report_data(const ProblemFile& file, const FeederProblem& problem, const RunSummary& run,
+                 const std::vector<JudgedDesign>& front) {
   Json json{{"formotion", 1}, {"program", "formotion " + run.program_version}};
   json["problem"] = problem_json(file, problem);
   json["run"] = {{"evaluations", run.evaluations},
@@ -295,11 +297,11 @@ Json report_data(const ProblemFile& file, const FeederProblem& problem, const Ru
   if (!problem.topologies().empty()) writer.part(start, travel_pictures(problem, 0, start));
   json["designs"] = Json::array();
   // The knee is what the page opens with: its travel comes first, should there be too many.
-  std::vector<Json> designs(run.front.size());
+  std::vector<Json> designs(front.size());
   const auto write = [&](bool of_knee) {
     for (std::size_t i = 0; i < designs.size(); ++i) {
-      const bool is_knee = !json["knee"].is_null() && json["knee"]["id"] == design_id(run.front[i]);
-      if (is_knee == of_knee) designs[i] = writer(run.front[i]);
+      const bool is_knee = !json["knee"].is_null() && json["knee"]["id"] == design_id(front[i].design);
+      if (is_knee == of_knee) designs[i] = writer(front[i]);
     }
   };
   write(true);

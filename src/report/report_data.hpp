@@ -6,9 +6,12 @@
 #include "applications/feeder/feeder_problem.hpp"
 #include "io/problem_file.hpp"
 #include "optimize/run_summary.hpp"
+#include "report/design_files.hpp"
 
 namespace formotion {
 
-nlohmann::ordered_json report_data(const ProblemFile& file, const feeder::FeederProblem& problem, const RunSummary& run);
+// front: run.front, judged.
+nlohmann::ordered_json report_data(const ProblemFile& file, const feeder::FeederProblem& problem, const RunSummary& run,
+                                   const std::vector<JudgedDesign>& front);
 
 }  // namespace formotion

@@ -6,7 +6,6 @@
 #include <fstream>
 
 #include "io/json_document.hpp"
-#include "report/design_files.hpp"
 #include "report/report_data.hpp"
 #include "report/report_page.hpp"
 
@@ -36,26 +35,27 @@ std::string problem_json_text(const ProblemFile& file, const RunIdentity& identi
   return json.dump(2) + "\n";
 }
 
-std::string pareto_json_text(const ProblemFile& file, const feeder::FeederProblem& problem, const RunSummary& run) {
+std::string pareto_json_text(const ProblemFile& file, const feeder::FeederProblem& problem, const RunSummary& run,
+                             const std::vector<JudgedDesign>& front) {
   OrderedJson json{{"formotion", 1}, {"problem", file.name}};
   json["objectives"] = OrderedJson::array();
   for (const Objective& objective : problem.objectives()) json["objectives"].push_back(objective.name);
   json["evaluations"] = run.evaluations;
   json["designs"] = OrderedJson::array();
-  for (const Evaluated& design : run.front) json["designs"].push_back(design_json(problem, design));
+  for (const JudgedDesign& design : front) json["designs"].push_back(design_json(problem, design));
   return json.dump(1) + "\n";
 }
 
-std::string designs_csv(const feeder::FeederProblem& problem, const RunSummary& run) {
+std::string designs_csv(const feeder::FeederProblem& problem, const std::vector<JudgedDesign>& front) {
   std::string text = "id,topology,feasible";
   const OrderedJson names = metrics_json({});
   for (const auto& [name, value] : names.items()) text += "," + name;
   for (const Variable& variable : problem.variables()) text += "," + quoted(variable.name);
   text += "\n";
-  for (const Evaluated& design : run.front) {
+  for (const JudgedDesign& design : front) {
     const OrderedJson json = design_json(problem, design);
     text += json["id"].get<std::string>() + "," + quoted(json["label"].get<std::string>()) +
-            (design.score.feasible ? ",true" : ",false");
+            (design.evaluation.feasible ? ",true" : ",false");
     for (const auto& [name, value] : json["metrics"].items()) text += "," + (value.is_null() ? "" : value.dump());
     for (const Variable& variable : problem.variables()) {
       text += "," + (json["values"].contains(variable.name) ? json["values"][variable.name].dump() : "");
@@ -82,19 +82,20 @@ void write_file(const std::string& path, const std::string& text) {
 
 void write_run_files(const std::string& folder, const ProblemFile& file, const feeder::FeederProblem& problem,
                      const RunSummary& run) {
-  write_file((fs::path(folder) / "pareto.json").string(), pareto_json_text(file, problem, run));
+  const std::vector<JudgedDesign> front = judged(problem, run.front);
+  write_file((fs::path(folder) / "pareto.json").string(), pareto_json_text(file, problem, run, front));
   const fs::path designs = fs::path(folder) / "designs";
   std::error_code error;
   fs::remove_all(designs, error);
   fs::create_directories(designs, error);
   if (error) throw StoreError(designs.string() + ": cannot be made: " + error.message());
-  for (const Evaluated& design : run.front) {
-    const std::string stem = (designs / design_id(design)).string();
+  for (const JudgedDesign& design : front) {
+    const std::string stem = (designs / design_id(design.design)).string();
     write_file(stem + ".json", design_json(problem, design).dump(1) + "\n");
     write_file(stem + ".svg", design_svg(file, problem, design));
     write_file(stem + ".dxf", design_dxf(file, problem, design));
   }
-  write_file((fs::path(folder) / "report.html").string(), report_page(report_data(file, problem, run)));
+  write_file((fs::path(folder) / "report.html").string(), report_page(report_data(file, problem, run, front)));
 }
 
 }  // namespace formotion

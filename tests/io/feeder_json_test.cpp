@@ -30,13 +30,17 @@ const char* const kProblem = R"({
   "goal": {"deliver": "one pose"}
 })";
 
+OrderedJson evaluated_json(const feeder::FeederProblem& problem, int topology, const std::vector<double>& values) {
+  return evaluation_json(problem, topology, values, problem.evaluate(topology, values));
+}
+
 }  // namespace
 
 TEST_CASE("a design written out and read back scores the same, for every type of feature") {
   ProblemFile file = parse_problem(kProblem, "p.json");
   const feeder::FeederProblem problem(file.feeder);
   const std::vector<double> values{9.1, 33.3};
-  const OrderedJson before = evaluation_json(problem, 0, values);
+  const OrderedJson before = evaluated_json(problem, 0, values);
 
   const std::string path = (std::filesystem::temp_directory_path() / "formotion_design.json").string();
   std::ofstream(path) << OrderedJson{{"features", features_json(problem.literal_design(0, values))},
@@ -46,7 +50,7 @@ TEST_CASE("a design written out and read back scores the same, for every type of
   apply_design_file(file, path, given);
   std::filesystem::remove(path);
   CHECK(given == std::vector<std::pair<std::string, double>>{{"w", 9.1}, {"a", 33.3}});
-  const OrderedJson after = evaluation_json(feeder::FeederProblem(file.feeder), 0, values);
+  const OrderedJson after = evaluated_json(feeder::FeederProblem(file.feeder), 0, values);
   CHECK(after["metrics"] == before["metrics"]);
   CHECK(after["poses"] == before["poses"]);
 }
@@ -54,7 +58,7 @@ TEST_CASE("a design written out and read back scores the same, for every type of
 TEST_CASE("an evaluation has the contract's keys; without uncertainty the worst case is the nominal one") {
   ProblemFile file = parse_problem(kProblem, "p.json");
   const feeder::FeederProblem problem(file.feeder);
-  const OrderedJson json = evaluation_json(problem, 0, std::vector<double>{9, 30});
+  const OrderedJson json = evaluated_json(problem, 0, std::vector<double>{9, 30});
   CHECK(json["formotion"] == 1);
   CHECK(json["kind"] == "feeder");
   for (const char* key : {"feasible", "violations", "values", "metrics", "worst_case", "poses"})
@@ -76,5 +80,5 @@ TEST_CASE("an evaluation has the contract's keys; without uncertainty the worst 
   CHECK(json["values"]["w"] == 9);
 
   file.feeder.uncertainty.feature_mm = 0.1;
-  CHECK(evaluation_json(feeder::FeederProblem(file.feeder), 0, std::vector<double>{9, 30})["worst_case"].is_null());
+  CHECK(evaluated_json(feeder::FeederProblem(file.feeder), 0, std::vector<double>{9, 30})["worst_case"].is_null());
 }

@@ -135,7 +135,7 @@ TEST_CASE("there is no knee where the front does not bulge, with few designs, or
 TEST_CASE("the exported hull corners give the margins that the program judged by") {
   Run run(60);
   run.run.front = run.run.sample;
-  const Json data = report_data(run.file, run.problem, run.run);
+  const Json data = report_data(run.file, run.problem, run.run, judged(run.problem, run.run.front));
   REQUIRE(data["designs"].size() == 60);
   int delivered = 0;
   for (const Json& design : data["designs"]) {
@@ -156,7 +156,7 @@ TEST_CASE("the exported hull corners give the margins that the program judged by
 TEST_CASE("a report keeps exact what reproduces a design, and rounds what is measured") {
   Run run(20);
   run.run.front = {run.run.sample[4], run.run.sample[7]};
-  const Json data = report_data(run.file, run.problem, run.run);
+  const Json data = report_data(run.file, run.problem, run.run, judged(run.problem, run.run.front));
   for (std::size_t i = 0; i < 2; ++i) {
     const Evaluated& design = run.run.front[i];
     const Json& json = data["designs"][i];
@@ -183,7 +183,7 @@ TEST_CASE("without a feasible design there is no knee, and every design says wha
   }
   REQUIRE(run.run.front.size() > 3);
   run.run.feasible = 0;
-  const Json data = report_data(run.file, run.problem, run.run);
+  const Json data = report_data(run.file, run.problem, run.run, judged(run.problem, run.run.front));
   CHECK(data["knee"].is_null());
   for (const Json& design : data["designs"]) CHECK(design["violations"].size() > 0);
 }
@@ -202,7 +202,7 @@ TEST_CASE("a page of many rounded shapes stays small, and the knee keeps its tra
     const double a = i / 99.0, b = (1 - a) * (1 - a);  // a convex front
     run.run.front[i].score.objectives = {-a, -b, 1};
   }
-  const Json data = report_data(run.file, run.problem, run.run);
+  const Json data = report_data(run.file, run.problem, run.run, judged(run.problem, run.run.front));
   CHECK(report_page(data).size() < 5000000);
   std::size_t without = 0;
   for (const Json& design : data["designs"]) {
@@ -216,7 +216,7 @@ TEST_CASE("a page of many rounded shapes stays small, and the knee keeps its tra
 
 TEST_CASE("a run that evaluated nothing has a report") {
   Run run(0);
-  const Json data = report_data(run.file, run.problem, run.run);
+  const Json data = report_data(run.file, run.problem, run.run, judged(run.problem, run.run.front));
   CHECK(data["designs"].empty());
   CHECK(data["knee"].is_null());
   CHECK(data["parts"].size() == 1);
@@ -225,7 +225,7 @@ TEST_CASE("a run that evaluated nothing has a report") {
 TEST_CASE("the page holds the data so that no name can end its script") {
   Run run(6, Run::problem_text("<!-- </script><script>alert(1)</script>"));
   run.run.front = run.run.sample;
-  const Json data = report_data(run.file, run.problem, run.run);
+  const Json data = report_data(run.file, run.problem, run.run, judged(run.problem, run.run.front));
   const std::string page = report_page(data);
   const std::string begin = "<script id=\"report-data\" type=\"application/json\">";
   const std::size_t from = page.find(begin);
@@ -239,7 +239,7 @@ TEST_CASE("the page holds the data so that no name can end its script") {
 
 TEST_CASE("the page loads nothing from elsewhere") {
   Run run(3);
-  const std::string page = report_page(report_data(run.file, run.problem, run.run));
+  const std::string page = report_page(report_data(run.file, run.problem, run.run, judged(run.problem, run.run.front)));
   for (std::size_t at = page.find("//"); at != std::string::npos; at = page.find("//", at + 1)) {
     if (at < 5 || (page.compare(at - 5, 5, "http:") != 0 && page.compare(at - 6, 6, "https:") != 0)) continue;
     CHECK(page.compare(at, 13, "//www.w3.org/") == 0);  // names of XML vocabularies

@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <regex>
 #include <set>
 #include <sstream>
 
@@ -117,19 +116,40 @@ bool same_corners(const std::vector<Loop>& a, const std::vector<Loop>& b, double
   return covered(a, b) && covered(b, a);
 }
 
-// The text between > and < of every element of this name.
-std::vector<std::string> texts(const std::string& svg) {
+// What stands between two marks, for every occurrence from a place on.
+std::vector<std::string> all_between(const std::string& text, const std::string& before, const std::string& after) {
   std::vector<std::string> found;
-  const std::regex pattern("<text[^>]*>([^<]*)</text>");
-  for (std::sregex_iterator i(svg.begin(), svg.end(), pattern), end; i != end; ++i) found.push_back((*i)[1]);
+  for (std::size_t at = text.find(before); at != std::string::npos; at = text.find(before, at)) {
+    at += before.size();
+    const std::size_t end = text.find(after, at);
+    if (end == std::string::npos) break;
+    found.push_back(text.substr(at, end - at));
+  }
   return found;
 }
 
-std::vector<double> numbers(const std::string& text) {
+std::string between(const std::string& text, const std::string& before, const std::string& after) {
+  const auto found = all_between(text, before, after);
+  REQUIRE_FALSE(found.empty());
+  return found.front();
+}
+
+// The SVG's texts.
+std::vector<std::string> texts(const std::string& svg) {
+  std::vector<std::string> found;
+  for (const std::string& element : all_between(svg, "<text", "</text>")) {
+    found.push_back(element.substr(element.find('>') + 1));
+  }
+  return found;
+}
+
+// The numbers of a path's data.
+std::vector<double> numbers(std::string data) {
+  std::replace_if(
+      data.begin(), data.end(), [](char c) { return c == 'M' || c == 'L' || c == 'Z'; }, ' ');
+  std::istringstream stream(data);
   std::vector<double> found;
-  const std::regex pattern("-?[0-9]+(\\.[0-9]+)?");
-  for (std::sregex_iterator i(text.begin(), text.end(), pattern), end; i != end; ++i)
-    found.push_back(std::stod(i->str()));
+  for (double value = 0; stream >> value;) found.push_back(value);
   return found;
 }
 
@@ -216,20 +236,15 @@ TEST_CASE("notes reach the DXF as ASCII, other characters by their number") {
 
 TEST_CASE("the SVG is to scale: one unit is one millimetre, on paper and in the drawing") {
   const std::string svg = track_svg(example());
-  std::smatch size;
-  REQUIRE(std::regex_search(
-      svg, size, std::regex("width=\"([0-9.]+)mm\" height=\"([0-9.]+)mm\" viewBox=\"0 0 ([0-9.]+) ([0-9.]+)\"")));
-  CHECK(size[1] == size[3]);
-  CHECK(size[2] == size[4]);
-  std::smatch metal;
-  REQUIRE(std::regex_search(svg, metal, std::regex("class=\"metal\" fill-rule=\"evenodd\" d=\"([^\"]*)\"")));
-  const std::vector<double> coordinates = numbers(metal[1]);
+  const double wide = std::stod(between(svg, "width=\"", "mm\"")), high = std::stod(between(svg, "height=\"", "mm\""));
+  CHECK(numbers(between(svg, "viewBox=\"", "\"")) == std::vector<double>{0, 0, wide, high});
+  const auto coordinates = numbers(between(svg, "class=\"metal\" fill-rule=\"evenodd\" d=\"", "\""));
   Box box;
   for (std::size_t i = 0; i + 1 < coordinates.size(); i += 2) box.include({coordinates[i], coordinates[i + 1]});
   CHECK(box.max.x() - box.min.x() == Approx(320 + 60).margin(1e-3));
   CHECK(box.max.y() - box.min.y() == Approx(kWidth).margin(1e-3));
-  CHECK(box.max.x() < std::stod(size[3]));
-  CHECK(box.max.y() < std::stod(size[4]));
+  CHECK(box.max.x() < wide);
+  CHECK(box.max.y() < high);
 }
 
 TEST_CASE("the SVG shows every feature's start, end and parameters, and the corners of cut-outs") {
@@ -252,8 +267,10 @@ TEST_CASE("numbers of features do not cover each other however close their edges
   for (int i = 0; i < 12; ++i) drawing.features.push_back(slot(1.7 * i, 1, 5 + i, 8 + i));
   const std::string svg = track_svg(drawing);
   std::vector<double> at;  // of the numbers below the wall
-  const std::regex pattern("<text x=\"([0-9.]+)\" y=\"[0-9.]+\" font-size=\"2.8\" text-anchor=\"end\"[^>]*rotate");
-  for (std::sregex_iterator i(svg.begin(), svg.end(), pattern), end; i != end; ++i) at.push_back(std::stod((*i)[1]));
+  for (const std::string& element : all_between(svg, "<text ", ">")) {
+    if (element.find("rotate") == std::string::npos || element.find("anchor=\"end\"") == std::string::npos) continue;
+    at.push_back(std::stod(between(element, "x=\"", "\"")));
+  }
   REQUIRE(at.size() == 24);
   std::sort(at.begin(), at.end());
   for (std::size_t i = 1; i < at.size(); ++i) CHECK(at[i] - at[i - 1] >= 4 - 1e-3);
