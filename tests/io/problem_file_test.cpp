@@ -133,7 +133,6 @@ TEST_CASE("each kind of bad input is one issue, at its place, in words") {
        "/design/features/1/half_angle_deg", "below 89.9"},
       {"/design/features/1", R"({"type": "cutout", "polygon_mm": [[0,0],[9,0],[0,9],[9,9]]})",
        "/design/features/1/polygon_mm", "meets itself"},
-      {"/topologies", "[]", "", "exactly one"},
       {"/goal", "~", "/goal", "nothing"},
       {"/goal/deliver", "\"two poses\"", "/goal/deliver", "one pose"},
       {"/goal/deliver", R"({"aspect": "up", "orientation_deg": 45})", "/goal/deliver", "up 0.00 deg"},
@@ -165,6 +164,19 @@ TEST_CASE("each kind of bad input is one issue, at its place, in words") {
     CHECK(line.rfind("error: p.json:", 0) == 0);
     CHECK(line.find('\n') == std::string::npos);
   }
+}
+
+TEST_CASE("a problem has exactly one of design, topologies and grammar") {
+  const auto says = [](const std::string& text) {
+    const auto issues = issues_of(text);
+    return std::any_of(issues.begin(), issues.end(), [](const InputIssue& issue) {
+      return issue.where.empty() && issue.expected == "exactly one of design, topologies and grammar";
+    });
+  };
+  CHECK(says(patched("/topologies", R"([{"features": [{"type": "gap", "length_mm": 3}]}])")));
+  CHECK(says(patched("/design", "~")));
+  CHECK(says(patched("/grammar", "{}")));
+  CHECK_FALSE(says(kGood));
 }
 
 TEST_CASE("all errors of a file come at once") {
