@@ -31,6 +31,7 @@ std::optional<std::string> nearest_word(const std::string& word, const std::vect
   std::optional<std::string> best;
   std::size_t least = 0;
   for (const std::string& candidate : known) {
+    if (!word.empty() && candidate.rfind(word + "_", 0) == 0) return candidate;  // the unit is missing
     const std::size_t distance = edit_distance(word, candidate);
     if (distance <= std::max<std::size_t>(1, candidate.size() / 3) && (!best || distance < least)) {
       best = candidate;
