@@ -39,7 +39,7 @@ ChosenDesign chosen_design(const DesignChoice& choice) {
   }
   if (!issues.empty()) throw InputError(issues);
 
-  ChosenDesign chosen{nullptr, topology, {}};
+  ChosenDesign chosen{file.name, nullptr, topology, {}};
   for (const Variable& variable : file.feeder.variables) chosen.values.push_back(variable.start());
   for (const auto& [name, value] : given) {
     chosen.values[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())] = value;

@@ -11,6 +11,7 @@
 namespace formotion {
 
 struct ChosenDesign {
+  std::string name;  // of the problem
   std::unique_ptr<feeder::FeederProblem> problem;
   int topology = 0;
   std::vector<double> values;  // of all the problem's variables: given ones, else starting values

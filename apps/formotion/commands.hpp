@@ -32,7 +32,7 @@ int run_resume(const std::string& folder, const RunOptions& options);
 int run_status(const std::string& folder, const std::string& format);
 int run_report(const std::string& folder, const std::string& format);
 int run_export(const std::string& folder, const std::string& design, const std::string& format);
-int run_evaluate(const DesignChoice& choice);
+int run_evaluate(const DesignChoice& choice, const std::string& format);  // json, svg or dxf
 int run_query(const DesignChoice& choice);
 // folder_only: prints nothing but the folder that optimize would use.
 int run_validate(const std::string& problem, bool folder_only);

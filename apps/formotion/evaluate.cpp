@@ -3,15 +3,22 @@
 
 #include "chosen_design.hpp"
 #include "io/feeder_json.hpp"
+#include "report/design_files.hpp"
 
 namespace formotion {
 
-int run_evaluate(const DesignChoice& choice) {
+int run_evaluate(const DesignChoice& choice, const std::string& format) {
   const ChosenDesign chosen = chosen_design(choice);
-  OrderedJson json = evaluation_json(*chosen.problem, chosen.topology, chosen.values,
-                                     chosen.problem->evaluate(chosen.topology, chosen.values));
+  const feeder::FeederProblem& problem = *chosen.problem;
+  JudgedDesign judged{{}, chosen.values, problem.evaluate(chosen.topology, chosen.values)};
+  judged.design.candidate.topology = chosen.topology;
+  if (format == "svg" || format == "dxf") {
+    std::cout << (format == "svg" ? design_svg : design_dxf)(chosen.name, problem, judged);
+    return kDone;
+  }
+  OrderedJson json = evaluation_json(problem, chosen.topology, chosen.values, judged.evaluation);
   json["topology"] = chosen.topology;
-  json["features"] = features_json(chosen.problem->literal_design(chosen.topology, chosen.values));
+  json["features"] = features_json(problem.literal_design(chosen.topology, chosen.values));
   std::cout << json.dump(2) << "\n";
   return kDone;
 }

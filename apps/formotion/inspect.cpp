@@ -69,9 +69,9 @@ int run_export(const std::string& folder, const std::string& design, const std::
   }
   const JudgedDesign chosen = judged(loaded.problem, *found);
   if (format == "svg") {
-    std::cout << design_svg(loaded.file, loaded.problem, chosen);
+    std::cout << design_svg(loaded.file.name, loaded.problem, chosen);
   } else if (format == "dxf") {
-    std::cout << design_dxf(loaded.file, loaded.problem, chosen);
+    std::cout << design_dxf(loaded.file.name, loaded.problem, chosen);
   } else {
     std::cout << design_json(loaded.problem, chosen).dump(1) << "\n";
   }

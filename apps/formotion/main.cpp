@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
   RunOptions run;
   DesignChoice choice;
   std::string folder, design_id, status_format = "text", report_format = "html", export_format = "json",
-                                 log_format = "text", engine = "local";
+                                 evaluate_format = "json", log_format = "text", engine = "local";
   bool folder_only = false;
   std::function<int()> command;
 
@@ -86,7 +86,9 @@ int main(int argc, char** argv) {
 
   CLI::App* evaluate = app.add_subcommand("evaluate", "score one design: JSON on stdout");
   add_design_options(*evaluate, choice);
-  evaluate->callback([&] { command = [&] { return run_evaluate(choice); }; });
+  evaluate->add_option("--format", evaluate_format, "json, or the track's drawing: svg or dxf")
+      ->check(CLI::IsMember({"json", "svg", "dxf"}));
+  evaluate->callback([&] { command = [&] { return run_evaluate(choice, evaluate_format); }; });
 
   CLI::App* query = app.add_subcommand("query", "answer questions about configurations: JSON lines in, JSON lines out");
   add_design_options(*query, choice);

@@ -16,10 +16,10 @@ std::string fixed(double value, int digits) {
   return out.str();
 }
 
-TrackDrawing drawing_of(const ProblemFile& file, const feeder::FeederProblem& problem, const JudgedDesign& judged) {
+TrackDrawing drawing_of(const std::string& name, const feeder::FeederProblem& problem, const JudgedDesign& judged) {
   const feeder::FeederEvaluation& evaluation = judged.evaluation;
   TrackDrawing drawing;
-  drawing.title = file.name + ", design " + design_id(judged.design);
+  drawing.title = name + (judged.design.number > 0 ? ", design " + design_id(judged.design) : "");
   drawing.track_width_mm = problem.spec().environment.track_width_mm;
   drawing.features = problem.place(judged.design.candidate.topology, judged.values);
   if (evaluation.goal_pose >= 0) {
@@ -62,12 +62,12 @@ OrderedJson design_json(const feeder::FeederProblem& problem, const JudgedDesign
   return json;
 }
 
-std::string design_svg(const ProblemFile& file, const feeder::FeederProblem& problem, const JudgedDesign& judged) {
-  return track_svg(drawing_of(file, problem, judged));
+std::string design_svg(const std::string& name, const feeder::FeederProblem& problem, const JudgedDesign& judged) {
+  return track_svg(drawing_of(name, problem, judged));
 }
 
-std::string design_dxf(const ProblemFile& file, const feeder::FeederProblem& problem, const JudgedDesign& judged) {
-  return track_dxf(drawing_of(file, problem, judged));
+std::string design_dxf(const std::string& name, const feeder::FeederProblem& problem, const JudgedDesign& judged) {
+  return track_dxf(drawing_of(name, problem, judged));
 }
 
 }  // namespace formotion

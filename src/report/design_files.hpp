@@ -6,14 +6,13 @@
 
 #include "applications/feeder/feeder_problem.hpp"
 #include "io/feeder_json.hpp"
-#include "io/problem_file.hpp"
 #include "optimize/evaluated.hpp"
 
 namespace formotion {
 
 // A design judged in detail, once for all that is written of it.
 struct JudgedDesign {
-  Evaluated design;
+  Evaluated design;            // number 0: of no run
   std::vector<double> values;  // of all the problem's variables
   feeder::FeederEvaluation evaluation;
 };
@@ -23,7 +22,8 @@ std::vector<JudgedDesign> judged(const feeder::FeederProblem& problem, const std
 
 // A valid design file that also says where it comes from and what it scored.
 OrderedJson design_json(const feeder::FeederProblem& problem, const JudgedDesign& judged);
-std::string design_svg(const ProblemFile& file, const feeder::FeederProblem& problem, const JudgedDesign& judged);
-std::string design_dxf(const ProblemFile& file, const feeder::FeederProblem& problem, const JudgedDesign& judged);
+// name: the problem's.
+std::string design_svg(const std::string& name, const feeder::FeederProblem& problem, const JudgedDesign& judged);
+std::string design_dxf(const std::string& name, const feeder::FeederProblem& problem, const JudgedDesign& judged);
 
 }  // namespace formotion

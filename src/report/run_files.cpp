@@ -92,8 +92,8 @@ void write_run_files(const std::string& folder, const ProblemFile& file, const f
   for (const JudgedDesign& design : front) {
     const std::string stem = (designs / design_id(design.design)).string();
     write_file(stem + ".json", design_json(problem, design).dump(1) + "\n");
-    write_file(stem + ".svg", design_svg(file, problem, design));
-    write_file(stem + ".dxf", design_dxf(file, problem, design));
+    write_file(stem + ".svg", design_svg(file.name, problem, design));
+    write_file(stem + ".dxf", design_dxf(file.name, problem, design));
   }
   write_file((fs::path(folder) / "report.html").string(), report_page(report_data(file, problem, run, front)));
 }

@@ -55,6 +55,14 @@ TEST_CASE("evaluate says what a balcony does to the reference part, at widths on
   CHECK(json["metrics"]["tolerance_mm"].get<double>() == Approx(0.73468).margin(1e-4));
 }
 
+TEST_CASE("evaluate draws the track, too") {
+  const Problem problem;
+  const Said svg = run({"evaluate", problem.file, "--format", "svg"});
+  CHECK(svg.code == 0);
+  CHECK(svg.out.find("<svg") != std::string::npos);
+  CHECK(run({"evaluate", problem.file, "--format", "dxf"}).out.find("VOID") != std::string::npos);
+}
+
 TEST_CASE("query answers line by line, in order, and goes on after bad lines") {
   const Problem problem;
   const Said said =
