@@ -9,7 +9,7 @@ namespace formotion {
 
 struct InputIssue {
   std::string file;
-  std::string where;     // JSON pointer ("/part/outline_mm/3"), or "line:column"
+  std::string where;         // JSON pointer ("/part/outline_mm/3"), or "line:column"
   bool is_position = false;  // where is line:column
   std::string found, expected;
 };

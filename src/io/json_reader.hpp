@@ -38,11 +38,13 @@ inline constexpr Range kPositive{0, kLargestNumber, true};
 inline constexpr Range kNotNegative{0, kLargestNumber, false};
 
 // A number within the range, or nothing and an issue.
-std::optional<double> read_number(const nlohmann::ordered_json& value, const std::string& pointer, const Range& range, IssueList& issues);
+std::optional<double> read_number(const nlohmann::ordered_json& value, const std::string& pointer, const Range& range,
+                                  IssueList& issues);
 // A number or an expression in the variables.
-std::optional<Affine> read_expression(const nlohmann::ordered_json& value, const std::string& pointer, const std::vector<std::string>& names,
-                                      IssueList& issues);
-std::optional<std::string> read_string(const nlohmann::ordered_json& value, const std::string& pointer, IssueList& issues);
+std::optional<Affine> read_expression(const nlohmann::ordered_json& value, const std::string& pointer,
+                                      const std::vector<std::string>& names, IssueList& issues);
+std::optional<std::string> read_string(const nlohmann::ordered_json& value, const std::string& pointer,
+                                       IssueList& issues);
 
 // One object: keys are asked for by name; at the end the unknown ones are issues.
 class ObjectReader {
@@ -53,14 +55,16 @@ class ObjectReader {
   ObjectReader(const ObjectReader&) = delete;
   ~ObjectReader() = default;
 
-  const Json* find(const std::string& key);     // null where missing
+  const Json* find(const std::string& key);  // null where missing
   const Json* require(const std::string& key, const std::string& expected);
   std::string at(const std::string& key) const { return pointer_ + "/" + key; }
   const std::string& pointer() const { return pointer_; }
   bool valid() const { return object_ != nullptr; }
 
   std::optional<double> number(const std::string& key, const Range& range);
-  double number_or(const std::string& key, const Range& range, double otherwise) { return number(key, range).value_or(otherwise); }
+  double number_or(const std::string& key, const Range& range, double otherwise) {
+    return number(key, range).value_or(otherwise);
+  }
   double required_number(const std::string& key, const Range& range, const std::string& expected = "a number");
   Affine expression(const std::string& key, const std::vector<std::string>& names);  // required
   std::optional<std::string> string(const std::string& key);

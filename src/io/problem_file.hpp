@@ -36,6 +36,7 @@ ProblemFile parse_problem(const std::string& text, const std::string& path);
 
 // A design file ({"features": [...]}: an entry of pareto.json or designs/ID.json is one) replaces the problem's
 // topologies by this one; its optional "values" are variables' values.
-void apply_design_file(ProblemFile& problem, const std::string& path, std::vector<std::pair<std::string, double>>& values);
+void apply_design_file(ProblemFile& problem, const std::string& path,
+                       std::vector<std::pair<std::string, double>>& values);
 
 }  // namespace formotion

@@ -9,22 +9,23 @@ namespace formotion {
 // What the pieces share.
 struct ReadContext {
   IssueList& issues;
-  std::string folder;              // files are named relative to it
-  std::vector<std::string> names;  // of the variables
+  std::string folder;                 // files are named relative to it
+  std::vector<std::string> names;     // of the variables
   nlohmann::ordered_json& canonical;  // the document, with files replaced by what they hold
 };
 
 feeder::PartSpec read_part(const nlohmann::ordered_json& value, ReadContext& context);
 // features: the array of a design; canonical: the same array in the canonical document.
-feeder::DesignSpec read_features(const nlohmann::ordered_json& features, const std::string& pointer, ReadContext& context,
-                                 nlohmann::ordered_json& canonical);
+feeder::DesignSpec read_features(const nlohmann::ordered_json& features, const std::string& pointer,
+                                 ReadContext& context, nlohmann::ordered_json& canonical);
 feeder::Environment read_environment(const nlohmann::ordered_json* value, ReadContext& context);
 feeder::Goal read_goal(const nlohmann::ordered_json& value, const feeder::PartSpec& part, ReadContext& context);
 feeder::Manufacture read_manufacture(const nlohmann::ordered_json* value, ReadContext& context);
 feeder::Uncertainty read_uncertainty(const nlohmann::ordered_json* value, ReadContext& context);
 
 AffineLoop read_loop(const nlohmann::ordered_json& value, const std::string& pointer, ReadContext& context);
-std::vector<AffineLoop> read_loops(const nlohmann::ordered_json* value, const std::string& pointer, ReadContext& context);
+std::vector<AffineLoop> read_loops(const nlohmann::ordered_json* value, const std::string& pointer,
+                                   ReadContext& context);
 Loop constant_loop(const AffineLoop& loop);  // the constants of its expressions
 AffineLoop literal_loop(const Loop& loop);
 bool is_literal(const AffineLoop& loop);

@@ -22,7 +22,7 @@ struct FeatureReader {
 
   // A length: literal ones are checked here, those with variables when they have values.
   Affine length(const std::string& key) {
-    const Affine value = expression(key);
+    Affine value = expression(key);
     if (value.is_literal() && value.constant < 0)
       context.issues.add(object.at(key), Json(value.constant).dump(), "a number of at least 0");
     return value;
@@ -30,7 +30,7 @@ struct FeatureReader {
 };
 
 feeder::Canyon read_band(FeatureReader& f) {
-  const feeder::Canyon band{f.expression("from_mm"), f.expression("to_mm"), f.length("length_mm")};
+  feeder::Canyon band{f.expression("from_mm"), f.expression("to_mm"), f.length("length_mm")};
   const auto given = [&](const std::string& key) { return f.canonical.contains(key) && f.canonical[key].is_number(); };
   if (given("from_mm") && given("to_mm") && band.from_mm.constant >= band.to_mm.constant) {
     f.context.issues.add(f.object.at("from_mm"), Json(band.from_mm.constant).dump(), "a number below to_mm");
@@ -52,7 +52,7 @@ feeder::Cutout read_cutout(FeatureReader& f) {
 }
 
 feeder::DishOut read_dish_out(FeatureReader& f) {
-  const feeder::DishOut dish{f.length("depth_mm"), f.length("length_mm")};
+  feeder::DishOut dish{f.length("depth_mm"), f.length("length_mm")};
   if (dish.depth_mm.is_literal() && dish.length_mm.is_literal() &&
       dish.depth_mm.constant > dish.length_mm.constant / 2) {
     f.context.issues.add(f.object.at("depth_mm"), Json(dish.depth_mm.constant).dump(),

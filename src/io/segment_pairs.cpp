@@ -104,7 +104,7 @@ std::optional<Point> crossing(const Segment& s, const Segment& t) {
 // count.
 std::optional<Point> contact(const Segment& s, const Segment& t, double tolerance, bool t_follows, bool s_follows) {
   if (!t_follows && !s_follows) {
-    if (const auto at = crossing(s, t)) return at;
+    if (auto at = crossing(s, t)) return at;
   }
   const auto near = [&](const Point& p, const Segment& other) {
     return distance_to_segment(p, other.a, other.b) <= tolerance;

@@ -41,9 +41,9 @@ struct Objective {
 // What one evaluation says. Values are finite always: a measure that does not exist counts as the worst one.
 struct Score {
   bool feasible = false;
-  double violation = 0;            // 0 iff feasible, else a positive distance-like amount that falls towards feasibility
-  std::vector<double> objectives;  // nominal, in the order and sense of Problem::objectives
-  std::vector<double> worst_case;  // the same at the worst of the uncertainties; empty while not computed
+  double violation = 0;  // 0 iff feasible, else a positive distance-like amount that falls towards feasibility
+  std::vector<double> objectives;    // nominal, in the order and sense of Problem::objectives
+  std::vector<double> worst_case;    // the same at the worst of the uncertainties; empty while not computed
   std::optional<std::string> bites;  // the uncertain value that decides worst_case
   std::int64_t work = 0;             // pose-feature sweeps done
 };

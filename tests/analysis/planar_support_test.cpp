@@ -71,9 +71,11 @@ TEST_CASE("nothing under the part is no margin") {
 TEST_CASE("a part's hole does not support, its rim does") {
   const Polygon frame{rectangle(0, 0, 10, 10), {{{2, 2}, {2, 8}, {8, 8}, {8, 2}}}};
   // Metal is left only beneath the hole: nothing but the rim touches it.
-  const Track post{20, united({rectangle(-5, -5, 30, 2), rectangle(-5, 8, 30, 30), rectangle(-5, 0, 2, 20), rectangle(8, 0, 30, 20)})};
+  const Track post{20, united({rectangle(-5, -5, 30, 2), rectangle(-5, 8, 30, 30), rectangle(-5, 0, 2, 20),
+                               rectangle(8, 0, 30, 20)})};
   CHECK(*support_margin(frame, post, {5, 5}) == Approx(3));
-  const Track smaller{20, united({rectangle(-5, -5, 30, 3), rectangle(-5, 7, 30, 30), rectangle(-5, 0, 3, 20), rectangle(7, 0, 30, 20)})};
+  const Track smaller{20, united({rectangle(-5, -5, 30, 3), rectangle(-5, 7, 30, 30), rectangle(-5, 0, 3, 20),
+                                  rectangle(7, 0, 30, 20)})};
   CHECK_FALSE(support_margin(frame, smaller, {5, 5}).has_value());
 }
 

@@ -54,7 +54,8 @@ TEST_CASE("no sample of a travel is below its least margin, and the least margin
     const LeastMargin least = least_margin(travel);
     CAPTURE(i, on_grid, least.margin_mm, least.x_mm);
 
-    const double from = voids.edges.box.min.x() - part.edges.box.max.x(), to = voids.edges.box.max.x() - part.edges.box.min.x();
+    const double from = voids.edges.box.min.x() - part.edges.box.max.x(),
+                 to = voids.edges.box.max.x() - part.edges.box.min.x();
     double sampled = 1e9;
     for (int k = 0; k <= 400; ++k) {
       const double x = from + (to - from) * (k + 0.37) / 401;
@@ -63,7 +64,8 @@ TEST_CASE("no sample of a travel is below its least margin, and the least margin
       sampled = std::min(sampled, margin);
     }
     // Attained: in the limit from one side, since the margin may jump up at the place itself.
-    const double near = std::min({margin_sampled(c, least.x_mm), margin_sampled(c, least.x_mm - 1e-6), margin_sampled(c, least.x_mm + 1e-6)});
+    const double near = std::min(
+        {margin_sampled(c, least.x_mm), margin_sampled(c, least.x_mm - 1e-6), margin_sampled(c, least.x_mm + 1e-6)});
     if (least.margin_mm < part.plain_margin_mm - 1e-9) REQUIRE(near == Approx(least.margin_mm).margin(2e-4));
     lost += least.margin_mm < 0;
     moving_minimum += sampled > least.margin_mm + 1e-9;
@@ -82,7 +84,8 @@ TEST_CASE("the stretches without support are those of fine samples: 1,000 travel
     const VoidOutline voids = VoidOutline::of(loops_of(c.track.voids));
     const SupportLoss loss = support_loss({part, voids});
     CAPTURE(i);
-    const double from = voids.edges.box.min.x() - part.edges.box.max.x(), to = voids.edges.box.max.x() - part.edges.box.min.x();
+    const double from = voids.edges.box.min.x() - part.edges.box.max.x(),
+                 to = voids.edges.box.max.x() - part.edges.box.min.x();
     for (int k = 0; k <= 300; ++k) {
       const double x = from + (to - from) * (k + 0.41) / 301;
       const auto margin = support_margin(placed(c.part, 0, {x, 0}), c.track, {x, c.com_wall});

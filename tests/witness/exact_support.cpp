@@ -53,7 +53,8 @@ Loop around(const Polygon& part, double y_min, double y_max) {
 
 std::vector<Kernel::Segment_2> edges(const ExactArea& area) {
   std::vector<Kernel::Segment_2> all(area.outer_boundary().edges_begin(), area.outer_boundary().edges_end());
-  for (auto hole = area.holes_begin(); hole != area.holes_end(); ++hole) all.insert(all.end(), hole->edges_begin(), hole->edges_end());
+  for (auto hole = area.holes_begin(); hole != area.holes_end(); ++hole)
+    all.insert(all.end(), hole->edges_begin(), hole->edges_end());
   return all;
 }
 
@@ -71,7 +72,8 @@ int side(const ExactArea& area, const ExactPoint& p) {
 
 }  // namespace
 
-std::optional<double> margin_by_boolean_operations(const Polygon& part, const Track& track, const Point& supported_point) {
+std::optional<double> margin_by_boolean_operations(const Polygon& part, const Track& track,
+                                                   const Point& supported_point) {
   AreaSet metal;
   metal.insert(exact(around(part, 0, track.width_mm)));
   for (const Polygon& hole : track.voids) metal.difference(exact(hole));
@@ -85,7 +87,8 @@ std::optional<double> margin_by_boolean_operations(const Polygon& part, const Tr
   return hull_distance(corners, supported_point);
 }
 
-std::optional<double> margin_by_exact_generators(const Polygon& part, const Track& track, const Point& supported_point) {
+std::optional<double> margin_by_exact_generators(const Polygon& part, const Track& track,
+                                                 const Point& supported_point) {
   const ExactArea body = exact(part);
   std::vector<ExactArea> voids;
   for (const Polygon& hole : track.voids) voids.push_back(exact(hole));
@@ -97,7 +100,8 @@ std::optional<double> margin_by_exact_generators(const Polygon& part, const Trac
     }
     points.push_back(p);
   };
-  std::vector<Kernel::Segment_2> lines = edges(body), fixed = edges(exact(Polygon{around(part, 0, track.width_mm), {}}));
+  std::vector<Kernel::Segment_2> lines = edges(body),
+                                 fixed = edges(exact(Polygon{around(part, 0, track.width_mm), {}}));
   for (const ExactArea& hole : voids) {
     const auto more = edges(hole);
     fixed.insert(fixed.end(), more.begin(), more.end());
@@ -117,6 +121,27 @@ std::optional<double> margin_by_exact_generators(const Polygon& part, const Trac
     }
   }
   return hull_distance(points, supported_point);
+}
+
+std::vector<Polygon> united_exactly(const std::vector<Loop>& loops) {
+  AreaSet all;
+  for (const Loop& loop : loops) all.join(exact(loop));
+  std::vector<ExactArea> areas;
+  all.polygons_with_holes(std::back_inserter(areas));
+  const auto rounded = [](const ExactPolygon& polygon) {
+    Loop loop;
+    for (auto p = polygon.vertices_begin(); p != polygon.vertices_end(); ++p) {
+      loop.emplace_back(CGAL::to_double(p->x()), CGAL::to_double(p->y()));
+    }
+    return loop;
+  };
+  std::vector<Polygon> polygons;
+  for (const ExactArea& area : areas) {
+    Polygon polygon{rounded(area.outer_boundary()), {}};
+    for (auto hole = area.holes_begin(); hole != area.holes_end(); ++hole) polygon.holes.push_back(rounded(*hole));
+    polygons.push_back(std::move(polygon));
+  }
+  return polygons;
 }
 
 }  // namespace formotion::witness

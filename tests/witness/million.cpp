@@ -30,7 +30,9 @@ int main(int argc, char** argv) {
     ++wrong;
     std::printf("configuration %ld: %.12g against %.12g\n", i, fast.value_or(NAN), slow.value_or(NAN));
   }
-  std::printf("%ld configurations, %ld of them degenerate, %ld without any support: %ld disagree; largest difference of the others %.3g mm\n",
-              count, degenerate, unsupported, wrong, largest);
+  std::printf(
+      "%ld configurations, %ld of them degenerate, %ld without any support: %ld disagree; largest difference of the "
+      "others %.3g mm\n",
+      count, degenerate, unsupported, wrong, largest);
   return wrong == 0 ? 0 : 1;
 }

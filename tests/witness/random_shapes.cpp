@@ -30,10 +30,14 @@ Polygon grid_polygon(Random& random, int size) {
   const double w = 2 + below(random, size), h = 2 + below(random, size);
   const double a = 1 + below(random, static_cast<int>(w) - 1), b = 1 + below(random, static_cast<int>(h) - 1);
   switch (below(random, 4)) {
-    case 0: return {rectangle(0, 0, w, h), {}};
-    case 1: return {{{0, 0}, {w, 0}, {w, b}, {a, b}, {a, h}, {0, h}}, {}};             // an el
-    case 2: return {{{0, 0}, {w + 2, 0}, {w + 2, h}, {w + 1, h}, {w + 1, b}, {1, b}, {1, h}, {0, h}}, {}};  // a channel
-    default: return {rectangle(0, 0, w + 2, h + 2), {{{1, 1}, {1, 1 + b}, {1 + a, 1 + b}, {1 + a, 1}}}};   // a frame
+    case 0:
+      return {rectangle(0, 0, w, h), {}};
+    case 1:
+      return {{{0, 0}, {w, 0}, {w, b}, {a, b}, {a, h}, {0, h}}, {}};  // an el
+    case 2:
+      return {{{0, 0}, {w + 2, 0}, {w + 2, h}, {w + 1, h}, {w + 1, b}, {1, b}, {1, h}, {0, h}}, {}};  // a channel
+    default:
+      return {rectangle(0, 0, w + 2, h + 2), {{{1, 1}, {1, 1 + b}, {1 + a, 1 + b}, {1 + a, 1}}}};  // a frame
   }
 }
 
@@ -51,8 +55,9 @@ Situation random_situation(Random& random) {
   std::vector<Loop> loops;
   for (int i = 0; i < voids; ++i) {
     const Point at(uniform(random, 0, 30), uniform(random, 0, 30));
-    loops.push_back(below(random, 2) ? placed(random_polygon(random, 10), 0, at).outer
-                                     : rectangle(at.x(), at.y(), at.x() + uniform(random, 1, 20), at.y() + uniform(random, 1, 30)));
+    loops.push_back(below(random, 2)
+                        ? placed(random_polygon(random, 10), 0, at).outer
+                        : rectangle(at.x(), at.y(), at.x() + uniform(random, 1, 20), at.y() + uniform(random, 1, 30)));
   }
   s.track.voids = united(loops);
   const Box box = bounding_box(s.part.outer);

@@ -112,6 +112,9 @@ struct Life {
 struct RestingHull {
   std::vector<int> corners;  // places in the segment, counter-clockwise
   double margin_mm = 0;
+  std::vector<int> ids;    // of all those at rest, by ascending x: while they stay, so does the hull
+  std::vector<int> ranks;  // of the corners among them
+  void forget() { ids.assign(1, -1); }
 };
 
 // Scratch memory of a search, kept between segments.
@@ -153,12 +156,10 @@ class InteriorSearch {
     int pairs = 0;
     const std::vector<int>& resting = scratch_.resting.corners;
     candidates_ = resting;
-    const std::size_t n = s_.begin.size(), h = resting.size();
-    for (std::size_t i = 0; i < n; ++i) {
-      if (s_.moving[i]) candidates_.push_back(static_cast<int>(i));
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!s_.moving[i]) continue;
+    const std::size_t h = resting.size();
+    add_movers();
+    for (std::size_t m = h; m < candidates_.size(); ++m) {
+      const std::size_t i = candidates_[m];
       for (std::size_t k = 0; k < h; ++k) {
         const std::size_t j = resting[k], before = resting[(k + h - 1) % h], after = resting[(k + 1) % h];
         ++pairs;
@@ -180,6 +181,46 @@ class InteriorSearch {
   }
 
  private:
+  // Adds the moving generators that can be corners of the hull: not those inside of the hull of those at rest all the
+  // time, nor those inside of the hull of others with the same motion, the metal's corners.
+  void add_movers() {
+    rigid_.clear();
+    for (std::size_t i = 0; i < s_.begin.size(); ++i) {
+      if (!s_.moving[i] || stays_inside(i)) continue;
+      const bool with_metal = s_.end[i].y() == s_.begin[i].y();  // the metal's corners move along -x, all alike
+      (with_metal ? rigid_ : candidates_).push_back(static_cast<int>(i));
+    }
+    if (rigid_.size() < kFewMovers) {
+      candidates_.insert(candidates_.end(), rigid_.begin(), rigid_.end());
+      return;
+    }
+    std::sort(rigid_.begin(), rigid_.end(), [&](int a, int b) {
+      const Point &p = s_.begin[a], &q = s_.begin[b];
+      return p.x() < q.x() || (p.x() == q.x() && p.y() < q.y());
+    });
+    // Others may move along -x too, crossings on the part's horizontal edges; they keep out of the metal's hull.
+    const double metal_moves = s_.from - s_.to;
+    for (const int i : rigid_) {
+      if (std::abs(s_.end[i].x() - s_.begin[i].x() - metal_moves) > kSameMotion_mm) candidates_.push_back(i);
+    }
+    std::erase_if(rigid_,
+                  [&](int i) { return std::abs(s_.end[i].x() - s_.begin[i].x() - metal_moves) > kSameMotion_mm; });
+    hull_of_sorted(s_.begin, rigid_, scratch_.hull);
+    candidates_.insert(candidates_.end(), scratch_.hull.begin(), scratch_.hull.end());
+  }
+
+  // A generator moves straight, so the ends of the segment tell.
+  bool stays_inside(std::size_t i) const {
+    const std::vector<int>& hull = scratch_.resting.corners;
+    if (hull.size() < 3) return false;
+    for (std::size_t k = 0; k < hull.size(); ++k) {
+      const Point& a = s_.begin[hull[k]];
+      const Point along = s_.begin[hull[k + 1 == hull.size() ? 0 : k + 1]] - a;
+      if (cross(along, s_.begin[i] - a) < kRoom_mm2 || cross(along, s_.end[i] - a) < kRoom_mm2) return false;
+    }
+    return true;
+  }
+
   // Whether the line i -> j may come nearer than the best margin: its distance is at least the numerator's least
   // coefficient over its length, whose greatest value bounds positive distances, its least one negative ones.
   bool may_improve(const Quadratic& numerator, std::size_t i, std::size_t j) const {
@@ -243,6 +284,9 @@ class InteriorSearch {
   const Segment& s_;
   LeastMargin& best_;
   Scratch& scratch_;
+  static constexpr std::size_t kFewMovers = 6;
+  static constexpr double kSameMotion_mm = 1e-12;
+  std::vector<int> rigid_;
   std::vector<int> candidates_;  // what can be a corner of the hull: those at rest, then those that move
 };
 
@@ -250,10 +294,25 @@ void find_resting_hull(const Segment& segment, Scratch& scratch) {
   scratch.order = segment.by_x;
   RestingHull& hull = scratch.resting;
   std::size_t at_rest = 0;
-  while (at_rest < segment.by_x.size() && !segment.moving[segment.by_x[at_rest]]) ++at_rest;
-  hull_of_sorted(segment.begin, std::span(segment.by_x).first(at_rest), hull.corners);
-  hull.margin_mm =
-      at_rest == 0 ? -std::numeric_limits<double>::infinity() : margin_of_hull(segment.begin, hull.corners).margin_mm;
+  bool same = true;
+  for (; at_rest < segment.by_x.size() && !segment.moving[segment.by_x[at_rest]]; ++at_rest) {
+    same = same && at_rest < hull.ids.size() && hull.ids[at_rest] == segment.ids[segment.by_x[at_rest]];
+  }
+  if (!same || hull.ids.size() != at_rest) {
+    hull_of_sorted(segment.begin, std::span(segment.by_x).first(at_rest), hull.corners);
+    hull.margin_mm =
+        at_rest == 0 ? -std::numeric_limits<double>::infinity() : margin_of_hull(segment.begin, hull.corners).margin_mm;
+    hull.ids.clear();
+    for (std::size_t k = 0; k < at_rest; ++k) hull.ids.push_back(segment.ids[segment.by_x[k]]);
+    hull.ranks.clear();
+    for (const int corner : hull.corners) {
+      const auto at = std::find(segment.by_x.begin(), segment.by_x.end(), corner);
+      hull.ranks.push_back(static_cast<int>(at - segment.by_x.begin()));
+    }
+    return;
+  }
+  hull.corners.clear();
+  for (const int rank : hull.ranks) hull.corners.push_back(segment.by_x[rank]);
 }
 
 // A few generators at rest that vouch for a margin as long as all of them live: most stretches of a travel need no
@@ -310,6 +369,7 @@ LeastMargin search(const Travel& travel, double stop_below, double ignore_above,
   if (travel.voids.edges.edges.empty()) return best;
   best.x_mm = travel.voids.edges.box.min.x() - travel.part.edges.box.max.x();
   thread_local Scratch scratch;
+  scratch.resting.forget();
   const GeneratorSet& set = generators_of(travel);
   best.margin_mm = std::min(best.margin_mm, glanced_margin(travel, set, scratch) + kEventTolerance_mm);
   Voucher voucher;
@@ -433,6 +493,7 @@ SupportLoss support_loss(const Travel& travel, bool first_only) {
     return loss;
   }
   Scratch scratch;
+  scratch.resting.forget();
   Voucher voucher;
   const auto skip = [&](double, double to) { return voucher.vouches(to, 0); };
   const GeneratorSet& set = generators_of(travel);

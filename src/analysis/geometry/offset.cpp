@@ -25,7 +25,8 @@ bool is_convex(const Loop& loop) {
 }
 
 // The corners of the tangents around the arc from normal n_in to n_out about corner.
-void append_arc(Loop& out, const Point& corner, const Point& n_in, const Point& n_out, double delta, const OffsetOptions& options) {
+void append_arc(Loop& out, const Point& corner, const Point& n_in, const Point& n_out, double delta,
+                const OffsetOptions& options) {
   const double start = std::atan2(n_in.y(), n_in.x());
   const double turn = std::atan2(cross(n_in, n_out), n_in.dot(n_out));
   const double side = turn < 0 ? -1 : 1;
@@ -103,7 +104,8 @@ bool boxes_apart(const std::vector<Loop>& loops, double delta) {
     const Box a = bounding_box(loops[i]);
     for (std::size_t j = 0; j < i; ++j) {
       const Box b = bounding_box(loops[j]);
-      const bool apart = (a.max.array() + 2 * reach < b.min.array()).any() || (b.max.array() + 2 * reach < a.min.array()).any();
+      const bool apart =
+          (a.max.array() + 2 * reach < b.min.array()).any() || (b.max.array() + 2 * reach < a.min.array()).any();
       if (!apart) return false;
     }
   }

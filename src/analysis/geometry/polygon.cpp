@@ -1,7 +1,6 @@
 #include "analysis/geometry/polygon.hpp"
 
 #include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -86,7 +85,9 @@ bool maps_onto(const Loop& from, const Loop& to, const Eigen::Matrix2d& map, con
   const auto n = static_cast<std::ptrdiff_t>(from.size());
   if (from.size() != to.size()) return false;
   const std::ptrdiff_t step = map.determinant() > 0 ? 1 : -1;
-  const auto image = [&](std::ptrdiff_t i) -> Point { return centre + map * (from[static_cast<std::size_t>(i)] - centre); };
+  const auto image = [&](std::ptrdiff_t i) -> Point {
+    return centre + map * (from[static_cast<std::size_t>(i)] - centre);
+  };
   for (std::ptrdiff_t shift = 0; shift < n; ++shift) {
     bool all = true;
     for (std::ptrdiff_t i = 0; i < n && all; ++i) {
@@ -243,16 +244,16 @@ Polygon mirrored_x(const Polygon& polygon) {
 }
 
 Loop convex_hull(Loop points) {
-  std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) {
-    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-  });
+  std::sort(points.begin(), points.end(),
+            [](const Point& a, const Point& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3) return points;
   Loop hull;
   const auto chain = [&hull](auto begin, auto end) {
     const std::size_t base = hull.size();
     for (auto it = begin; it != end; ++it) {
-      while (hull.size() >= base + 2 && cross(hull.back() - hull[hull.size() - 2], *it - hull.back()) <= 0) hull.pop_back();
+      while (hull.size() >= base + 2 && cross(hull.back() - hull[hull.size() - 2], *it - hull.back()) <= 0)
+        hull.pop_back();
       hull.push_back(*it);
     }
     hull.pop_back();  // the other chain begins with it

@@ -29,7 +29,9 @@ int roots_in_unit(const Quadratic& q, std::array<double, 2>& roots) {
 int stationary_in_unit(const Quadratic& numerator, const Quadratic& square, std::array<double, 3>& places) {
   // d(n / sqrt(s)) = 0  <=>  g = 2 n' s - n s' = 0, a cubic. Its derivative is
   // the quadratic 2 n'' s + n' s' - n s''.
-  const auto n1 = [&](double t) { return 2 * ((numerator.b1 - numerator.b0) * (1 - t) + (numerator.b2 - numerator.b1) * t); };
+  const auto n1 = [&](double t) {
+    return 2 * ((numerator.b1 - numerator.b0) * (1 - t) + (numerator.b2 - numerator.b1) * t);
+  };
   const auto s1 = [&](double t) { return 2 * ((square.b1 - square.b0) * (1 - t) + (square.b2 - square.b1) * t); };
   const auto g = [&](double t) { return 2 * n1(t) * square(t) - numerator(t) * s1(t); };
   const double n2 = 2 * (numerator.b0 - 2 * numerator.b1 + numerator.b2);

@@ -51,7 +51,7 @@ struct Metrics {
 struct PlacedFeature {
   std::string type;
   double start_mm = 0, end_mm = 0;
-  std::vector<Polygon> voids_mm;  // clipped to the strip, world frame
+  std::vector<Polygon> voids_mm;                           // clipped to the strip, world frame
   std::vector<std::pair<std::string, double>> dimensions;  // literal parameters, contract names
 };
 

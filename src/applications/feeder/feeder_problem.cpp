@@ -51,16 +51,55 @@ struct Expressions {
     if (f.at_mm) visit(*f.at_mm);
     std::visit([&](auto& shape) { of(shape, visit); }, f.shape);
   }
-  template <class V> static void of(Balcony& s, const V& v) { v(s.width_mm); v(s.length_mm); }
-  template <class V> static void of(Gap& s, const V& v) { v(s.length_mm); }
-  template <class V> static void of(Canyon& s, const V& v) { v(s.from_mm); v(s.to_mm); v(s.length_mm); }
-  template <class V> static void of(Slot& s, const V& v) { v(s.from_mm); v(s.to_mm); v(s.length_mm); }
-  template <class V> static void of(Cutout& s, const V& v) { for (AffinePoint& p : s.polygon_mm) { v(p[0]); v(p[1]); } }
-  template <class V> static void of(DishOut& s, const V& v) { v(s.depth_mm); v(s.length_mm); }
-  template <class V> static void of(Scallop& s, const V& v) { v(s.depth_mm); v(s.half_angle_rad); }
-  template <class V> static void of(Drawing&, const V&) {}
-  template <class V> static void of(Wiper& s, const V& v) { v(s.height_mm); }
-  template <class V> static void of(HoldDown& s, const V& v) { v(s.height_mm); v(s.length_mm); }
+  template <class V>
+  static void of(Balcony& s, const V& v) {
+    v(s.width_mm);
+    v(s.length_mm);
+  }
+  template <class V>
+  static void of(Gap& s, const V& v) {
+    v(s.length_mm);
+  }
+  template <class V>
+  static void of(Canyon& s, const V& v) {
+    v(s.from_mm);
+    v(s.to_mm);
+    v(s.length_mm);
+  }
+  template <class V>
+  static void of(Slot& s, const V& v) {
+    v(s.from_mm);
+    v(s.to_mm);
+    v(s.length_mm);
+  }
+  template <class V>
+  static void of(Cutout& s, const V& v) {
+    for (AffinePoint& p : s.polygon_mm) {
+      v(p[0]);
+      v(p[1]);
+    }
+  }
+  template <class V>
+  static void of(DishOut& s, const V& v) {
+    v(s.depth_mm);
+    v(s.length_mm);
+  }
+  template <class V>
+  static void of(Scallop& s, const V& v) {
+    v(s.depth_mm);
+    v(s.half_angle_rad);
+  }
+  template <class V>
+  static void of(Drawing&, const V&) {}
+  template <class V>
+  static void of(Wiper& s, const V& v) {
+    v(s.height_mm);
+  }
+  template <class V>
+  static void of(HoldDown& s, const V& v) {
+    v(s.height_mm);
+    v(s.length_mm);
+  }
 };
 
 std::vector<Topology> topologies_of(const FeederSpec& spec) {
@@ -82,7 +121,8 @@ std::vector<Topology> topologies_of(const FeederSpec& spec) {
       topology.label += (topology.label.empty() ? "" : " + ") + type_name(feature);
     }
     std::sort(topology.variables.begin(), topology.variables.end());
-    topology.variables.erase(std::unique(topology.variables.begin(), topology.variables.end()), topology.variables.end());
+    topology.variables.erase(std::unique(topology.variables.begin(), topology.variables.end()),
+                             topology.variables.end());
     topologies.push_back(std::move(topology));
   }
   return topologies;
@@ -95,6 +135,18 @@ bool same_orientation(double a, double b, int order) {
 bool named_by_goal(const Goal& goal, const PartModel& part, const StablePose& pose) {
   return (goal.aspect == "any" || goal.aspect == part.shapes[pose.aspect].name) &&
          same_orientation(pose.orientation_rad, goal.orientation_rad, part.symmetry[pose.aspect]);
+}
+
+std::vector<Violation> defects_of(const PartModel& part) {
+  std::vector<Violation> violations;
+  for (const AspectShape& shape : part.shapes) {
+    for (const Polygon& body : shape.bodies) {
+      if (const auto found = defect(body)) {
+        violations.push_back({"part, aspect " + shape.name + ": " + *found, "part", 1});
+      }
+    }
+  }
+  return violations;
 }
 
 double objective(const Metrics& metrics, const std::string& name) {
@@ -140,11 +192,16 @@ struct Dimensions {
 
 const char* name(Outcome outcome) {
   switch (outcome) {
-    case Outcome::Delivered: return "delivered";
-    case Outcome::Rejected: return "rejected";
-    case Outcome::Jammed: return "jammed";
-    case Outcome::Ambiguous: return "ambiguous";
-    case Outcome::Undecided: return "undecided";
+    case Outcome::Delivered:
+      return "delivered";
+    case Outcome::Rejected:
+      return "rejected";
+    case Outcome::Jammed:
+      return "jammed";
+    case Outcome::Ambiguous:
+      return "ambiguous";
+    case Outcome::Undecided:
+      return "undecided";
   }
   return "undecided";
 }
@@ -153,6 +210,7 @@ struct FeederProblem::Model {
   FeederSpec spec;
   std::vector<Topology> topologies;
   std::optional<PartModel> part;  // of a part whose shape does not depend on variables
+  std::vector<Violation> part_defects;
 
   struct Judged {
     FeederEvaluation evaluation;
@@ -167,20 +225,20 @@ struct FeederProblem::Model {
 };
 
 // One design, judged. Details (unsupported travel, sentences) cost more than the score needs.
-FeederProblem::Model::Judged FeederProblem::Model::judge(int topology, std::span<const double> values, bool in_detail) const {
+FeederProblem::Model::Judged FeederProblem::Model::judge(int topology, std::span<const double> values,
+                                                         bool in_detail) const {
   return with_part(values, [&](const PartModel& model) {
     Judged judged;
     FeederEvaluation& result = judged.evaluation;
-    const Layout layout = lay_out(spec.designs[topology], spec.environment, spec.manufacture, model.diameter_mm, values);
+    const Layout layout =
+        lay_out(spec.designs[topology], spec.environment, spec.manufacture, model.diameter_mm, values);
     result.metrics.length_mm = layout.length_mm;
     result.metrics.feature_count = static_cast<int>(layout.features.size());
     result.violations = layout.invalid;
-    for (const AspectShape& shape : model.shapes) {
-      for (const Polygon& body : shape.bodies) {
-        if (const auto found = defect(body)) result.violations.push_back({"part, aspect " + shape.name + ": " + *found, "part", 1});
-      }
-    }
-    if (spec.manufacture.min_web_mm) check_webs(layout, *spec.manufacture.min_web_mm, spec.environment.track_width_mm, result.violations);
+    const std::vector<Violation> defects = part ? part_defects : defects_of(model);
+    result.violations.insert(result.violations.end(), defects.begin(), defects.end());
+    if (spec.manufacture.min_web_mm)
+      check_webs(layout, *spec.manufacture.min_web_mm, spec.environment.track_width_mm, result.violations);
 
     const bool detail = in_detail || spec.goal.require_tip;
     const std::vector<PoseTravel> travels = travel_all(model, layout, spec.environment, detail);
@@ -225,22 +283,28 @@ FeederProblem::Model::Judged FeederProblem::Model::judge(int topology, std::span
       if (pose.margin_mm) metrics.margin_mm = std::min(metrics.margin_mm.value_or(*pose.margin_mm), *pose.margin_mm);
     }
     if (delivered_prior > 0) metrics.purity = metrics.efficiency / delivered_prior;
-    if (pitch > 0) metrics.feed_rate_per_min = 60 * spec.environment.conveying_speed_mm_s * metrics.efficiency * arriving / pitch;
+    if (pitch > 0)
+      metrics.feed_rate_per_min = 60 * spec.environment.conveying_speed_mm_s * metrics.efficiency * arriving / pitch;
 
     // What is wrong, in words and in mm; the sum falls as a design comes nearer to a feasible one.
     double lost_goal = -1;  // how deep the least lost goal pose is lost
     for (std::size_t i = 0; i < count; ++i) {
       const PoseResult& pose = travels[i].result;
-      const std::string where = "pose " + pose_name(model, model.poses[i].stable);
       const double by = std::max(1e-6, std::abs(nominal[i]));
-      if (delivered[i] && !is_goal[i]) result.violations.push_back({"a wrong pose is delivered", where, by});
+      const auto violate = [&](const char* what, double amount) {  // words cost more than the score
+        const std::string where = in_detail ? "pose " + pose_name(model, model.poses[i].stable) : std::string();
+        result.violations.push_back({in_detail ? what : "", where, amount});
+      };
+      if (delivered[i] && !is_goal[i]) violate("a wrong pose is delivered", by);
       if (!delivered[i] && (is_goal[i] || spec.goal.one_pose)) lost_goal = lost_goal < 0 ? by : std::min(lost_goal, by);
-      if (pose.outcome == Outcome::Jammed) result.violations.push_back({"a pose jams", where, 1});
-      if (spec.goal.require_tip && !delivered[i] && pose.unsupported_mm && pose.tip_mm && *pose.unsupported_mm < *pose.tip_mm) {
-        result.violations.push_back({"a lost pose has no time to tip", where, *pose.tip_mm - *pose.unsupported_mm});
+      if (pose.outcome == Outcome::Jammed) violate("a pose jams", 1);
+      if (spec.goal.require_tip && !delivered[i] && pose.unsupported_mm && pose.tip_mm &&
+          *pose.unsupported_mm < *pose.tip_mm) {
+        violate("a lost pose has no time to tip", *pose.tip_mm - *pose.unsupported_mm);
       }
     }
-    if (metrics.efficiency <= 0) result.violations.push_back({"the goal pose is not delivered", "goal", std::max(lost_goal, 1e-6)});
+    if (metrics.efficiency <= 0)
+      result.violations.push_back({"the goal pose is not delivered", "goal", std::max(lost_goal, 1e-6)});
     for (const Violation& violation : result.violations) judged.violation += violation.by;
     result.feasible = result.violations.empty();
     if (in_detail) collect_warnings(travels, layout, spec.environment, result.warnings);
@@ -270,7 +334,10 @@ std::optional<std::string> goal_defect(const FeederSpec& spec) {
 
 FeederProblem::FeederProblem(FeederSpec spec) : model_(std::make_unique<Model>()) {
   model_->topologies = topologies_of(spec);
-  if (is_literal(spec.part)) model_->part = part_model(spec.part, spec.environment, {});
+  if (is_literal(spec.part)) {
+    model_->part = part_model(spec.part, spec.environment, {});
+    model_->part_defects = defects_of(*model_->part);
+  }
   model_->spec = std::move(spec);
 }
 FeederProblem::~FeederProblem() = default;
@@ -293,7 +360,8 @@ Score FeederProblem::score(const Candidate& candidate) const {
   score.feasible = judged.evaluation.feasible;
   score.violation = judged.violation;
   score.work = judged.work;
-  for (const Objective& o : model_->spec.objectives) score.objectives.push_back(objective(judged.evaluation.metrics, o.name));
+  for (const Objective& o : model_->spec.objectives)
+    score.objectives.push_back(objective(judged.evaluation.metrics, o.name));
   if (!model_->spec.uncertainty.any()) score.worst_case = score.objectives;
   return score;
 }
@@ -312,7 +380,8 @@ std::vector<PlacedFeature> FeederProblem::place(int topology, std::span<const do
     const LaidFeature& laid = layout.features[i];
     PlacedFeature feature{laid.type, laid.start_mm, laid.end_mm, {}, std::visit(Dimensions{}, literal[i].shape)};
     if (!laid.voids.empty()) {
-      feature.voids_mm = intersection(laid.voids, {rectangle(laid.x_min - 1, 0, laid.x_max + 1, spec.environment.track_width_mm)});
+      feature.voids_mm =
+          intersection(laid.voids, {rectangle(laid.x_min - 1, 0, laid.x_max + 1, spec.environment.track_width_mm)});
     }
     placed.push_back(std::move(feature));
   }
@@ -335,12 +404,14 @@ SupportAnswer FeederProblem::support(int topology, std::span<const double> value
                                      const Configuration& q) const {
   const FeederSpec& spec = model_->spec;
   return model_->with_part(values, [&](const PartModel& part) {
-    const auto shape = std::find_if(part.shapes.begin(), part.shapes.end(), [&](const AspectShape& s) { return s.name == aspect; });
+    const auto shape =
+        std::find_if(part.shapes.begin(), part.shapes.end(), [&](const AspectShape& s) { return s.name == aspect; });
     if (shape == part.shapes.end()) throw std::logic_error("no aspect " + aspect);
     const Layout layout = lay_out(spec.designs[topology], spec.environment, spec.manufacture, part.diameter_mm, values);
     Track track{spec.environment.track_width_mm, {}};
     std::vector<Loop> voids;
-    for (const LaidFeature& feature : layout.features) voids.insert(voids.end(), feature.voids.begin(), feature.voids.end());
+    for (const LaidFeature& feature : layout.features)
+      voids.insert(voids.end(), feature.voids.begin(), feature.voids.end());
     for (const VoidGroup& group : grouped(layout, 0)) {
       for (const Loop& loop : group.loops) {
         if (signed_area(loop) > 0) {

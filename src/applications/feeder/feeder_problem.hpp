@@ -14,8 +14,8 @@ namespace formotion::feeder {
 // One aspect of the part with its expressions evaluated, moved so that its centre of mass is the origin.
 struct AspectShape {
   std::string name;
-  Polygon footprint;             // what needs support; outer counter-clockwise
-  std::vector<Polygon> bodies;   // all layers (the footprint alone where there are none): what meets the wall
+  Polygon footprint;            // what needs support; outer counter-clockwise
+  std::vector<Polygon> bodies;  // all layers (the footprint alone where there are none): what meets the wall
   double height_mm = 0;
   double com_height_mm = 0;
   double probability = 1;
@@ -24,8 +24,8 @@ struct AspectShape {
 // One way to rest against the wall.
 struct StablePose {
   int aspect = 0;
-  double orientation_rad = 0;    // from the outline as written, [0, 2 pi)
-  double com_wall_mm = 0;        // distance of the centre of mass from the wall
+  double orientation_rad = 0;  // from the outline as written, [0, 2 pi)
+  double com_wall_mm = 0;      // distance of the centre of mass from the wall
   double prior = 0;
 };
 
@@ -63,7 +63,8 @@ class FeederProblem final : public Problem {
   std::vector<PlacedFeature> place(int topology, std::span<const double> values) const;
   std::vector<AspectShape> shapes(std::span<const double> values) const;
   std::vector<StablePose> stable_poses(std::span<const double> values) const;  // in the order of evaluation.poses
-  SupportAnswer support(int topology, std::span<const double> values, const std::string& aspect, const Configuration& q) const;
+  SupportAnswer support(int topology, std::span<const double> values, const std::string& aspect,
+                        const Configuration& q) const;
   // The specification's features with literal numbers.
   DesignSpec literal_design(int topology, std::span<const double> values) const;
 

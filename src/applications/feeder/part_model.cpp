@@ -13,10 +13,12 @@ namespace {
 constexpr double kSymmetry_mm = 1e-5;  // vertices that meet within this are the same
 
 bool is_literal(const AffineLoop& loop) {
-  return std::all_of(loop.begin(), loop.end(), [](const AffinePoint& p) { return p[0].is_literal() && p[1].is_literal(); });
+  return std::all_of(loop.begin(), loop.end(),
+                     [](const AffinePoint& p) { return p[0].is_literal() && p[1].is_literal(); });
 }
 
-Polygon evaluated_polygon(const AffineLoop& outline, const std::vector<AffineLoop>& holes, std::span<const double> values) {
+Polygon evaluated_polygon(const AffineLoop& outline, const std::vector<AffineLoop>& holes,
+                          std::span<const double> values) {
   Polygon polygon{evaluated(outline, values), {}};
   for (const AffineLoop& hole : holes) polygon.holes.push_back(evaluated(hole, values));
   return normalised(std::move(polygon));
@@ -111,7 +113,9 @@ std::vector<AspectShape> aspect_shapes(const PartSpec& part, std::span<const dou
   return shapes;
 }
 
-double wall_shift(double com_height_mm, const Environment& environment) { return com_height_mm * std::tan(environment.tilt_rad); }
+double wall_shift(double com_height_mm, const Environment& environment) {
+  return com_height_mm * std::tan(environment.tilt_rad);
+}
 
 PartModel part_model(const PartSpec& part, const Environment& environment, std::span<const double> values) {
   PartModel model;
@@ -121,7 +125,8 @@ PartModel part_model(const PartSpec& part, const Environment& environment, std::
     const Loop corners = all_corners(shape);
     model.diameter_mm = std::max(model.diameter_mm, diameter(corners));
     model.symmetry.push_back(common_order(shape));
-    for (const WallPose& pose : merged_by_symmetry(wall_poses(corners, environment.settling_friction), model.symmetry.back())) {
+    for (const WallPose& pose :
+         merged_by_symmetry(wall_poses(corners, environment.settling_friction), model.symmetry.back())) {
       const StablePose stable{aspect, pose.orientation_rad, pose.com_wall_mm,
                               shape.probability * pose.basin_rad / (2 * std::numbers::pi)};
       model.poses.push_back(pose_model(shape, stable, environment));

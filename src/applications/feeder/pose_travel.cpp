@@ -62,7 +62,8 @@ Tipping tipping_of(const PoseModel& pose, const SupportLoss& loss, const VoidOut
   const Point normal(direction.y(), -direction.x());
   const AreaMoments moments = area_moments(pose.footprint);
   Tipping tipping;
-  tipping.gyration_squared = normal.dot(moments.second_mm4 * normal) / moments.area_mm2 + pose.height_mm * pose.height_mm / 12;
+  tipping.gyration_squared =
+      normal.dot(moments.second_mm4 * normal) / moments.area_mm2 + pose.height_mm * pose.height_mm / 12;
   const Point on_line = from + Point(0, pose.travelling.supported_y_mm);
   for (const Point& p : pose.footprint.outer) tipping.nose_mm = std::max(tipping.nose_mm, normal.dot(p - on_line));
   for (const Point& p : pose.footprint.outer) {
@@ -109,12 +110,14 @@ class Judge {
     SupportLoss first;
     for (std::size_t g = 0; g < groups_.size(); ++g) {
       const Travel past{pose.travelling, groups_[g].outline, held};
-      const LeastMargin found = least_margin(past);
+      const LeastMargin found = least_margin(past, -kInfinity, least.margin_mm);
       if (found.margin_mm < least.margin_mm) {
         least = found;
         least_group = static_cast<int>(g);
       }
-      if (found.margin_mm >= kLost_mm || lost_group >= 0) continue;  // groups come in the order of travel
+      // A rail may let go of a pose over nothing at all: a loss without a margin.
+      const bool lost = found.margin_mm < kLost_mm || found.unsupported;
+      if (!lost || lost_group >= 0) continue;  // groups come in the order of travel
       first = support_loss(past, !detail_);
       if (!first.lost) continue;  // below zero for less than the event tolerance
       lost_group = static_cast<int>(g);
@@ -169,24 +172,32 @@ class Judge {
     return first;
   }
 
+  // Lost before the first feature; features may make the loss deeper.
   PoseTravel never_stands(const PoseModel& pose, PoseTravel travel) const {
-    const double depth = std::min(part_.diameter_mm, -pose.travelling.plain_margin_mm);
+    double least = std::min(pose.travelling.plain_margin_mm, blade_clearance(pose, layout_));
+    for (const Group& group : groups_) {
+      least = std::min(least, least_margin({pose.travelling, group.outline, held_intervals(pose, layout_)}).margin_mm);
+    }
+    const double depth = std::min(part_.diameter_mm, -least);
     travel.result.outcome = pose.footprint_reaches(environment_.track_width_mm) ? Outcome::Rejected : Outcome::Jammed;
     travel.result.margin_mm = depth;
     travel.nominal_mm = depth;
-    travel.result.reason = "the plain track does not hold it: its centre of mass lies " + mm(depth) + " beyond its support";
+    travel.result.reason = "the plain track does not hold it: its centre of mass lies " +
+                           mm(-pose.travelling.plain_margin_mm) + " beyond its support";
     return travel;
   }
 
   void tell_delivered(PoseResult& result) const {
     result.reason = result.decided_by
-                        ? "supported all the way; least margin " + mm(*result.margin_mm) + " at x = " + mm(result.decided_by->x_mm) +
-                              ", over " + named(layout_, result.decided_by->feature)
+                        ? "supported all the way; least margin " + mm(*result.margin_mm) +
+                              " at x = " + mm(result.decided_by->x_mm) + ", over " +
+                              named(layout_, result.decided_by->feature)
                         : "supported all the way, nowhere less than on the plain track (" + mm(*result.margin_mm) + ")";
     if (result.marginal) result.reason += "; marginal: the least error loses it";
   }
 
-  void describe_loss(const PoseModel& pose, const SupportLoss& loss, const Group& group, double depth, PoseResult& result) const {
+  void describe_loss(const PoseModel& pose, const SupportLoss& loss, const Group& group, double depth,
+                     PoseResult& result) const {
     double unsupported = 0;
     for (const Interval& stretch : loss.lost_mm) unsupported += stretch.to - stretch.from;
     result.unsupported_mm = unsupported;
@@ -195,8 +206,9 @@ class Judge {
     result.tip_mm = drop_travel(tipping, depth, kTipDrop_mm, v);
     const std::optional<double> through = drop_travel(tipping, depth, pose.height_mm, v);
     result.may_catch = std::isfinite(tipping.reach_mm) && (!through || tipping.reach_mm < *through);
-    result.reason = "loses its support at x = " + mm(loss.x_mm) + " over " + named(layout_, result.decided_by->feature) + ", by up to " +
-                    mm(depth) + " for " + mm(unsupported) + " of travel; ";
+    result.reason = "loses its support at x = " + mm(loss.x_mm) + " over " +
+                    named(layout_, result.decided_by->feature) + ", by up to " + mm(depth) + " for " + mm(unsupported) +
+                    " of travel; ";
     result.reason += result.outcome == Outcome::Rejected
                          ? "the void lets it fall"
                          : "the void neither opens to the free edge by its thickness nor lets it through edgewise";
@@ -212,12 +224,14 @@ class Judge {
 };
 
 double segment_distance(const Point& a, const Point& b, const Point& c, const Point& d) {
-  return std::min({distance_to_segment(a, c, d), distance_to_segment(b, c, d), distance_to_segment(c, a, b), distance_to_segment(d, a, b)});
+  return std::min({distance_to_segment(a, c, d), distance_to_segment(b, c, d), distance_to_segment(c, a, b),
+                   distance_to_segment(d, a, b)});
 }
 
 }  // namespace
 
-std::vector<PoseTravel> travel_all(const PartModel& part, const Layout& layout, const Environment& environment, bool detail) {
+std::vector<PoseTravel> travel_all(const PartModel& part, const Layout& layout, const Environment& environment,
+                                   bool detail) {
   Judge judge(part, layout, environment, detail);
   std::vector<PoseTravel> travels;
   travels.reserve(part.poses.size());
@@ -253,7 +267,8 @@ void check_webs(const Layout& layout, double least_mm, double track_width_mm, st
       }
       if (web < least_mm) {
         violations.push_back({"the web between two voids is only " + mm(web) + " wide",
-                              named(layout, pieces[j].second) + " and " + named(layout, pieces[i].second), least_mm - web});
+                              named(layout, pieces[j].second) + " and " + named(layout, pieces[i].second),
+                              least_mm - web});
       }
     }
   }
@@ -264,10 +279,12 @@ void collect_warnings(const std::vector<PoseTravel>& travels, const Layout& layo
   for (const PoseTravel& travel : travels) {
     const PoseResult& pose = travel.result;
     std::ostringstream who;
-    who << "pose " << pose.aspect << " " << std::fixed << std::setprecision(2) << pose.orientation_rad * 180 / std::numbers::pi << " deg: ";
+    who << "pose " << pose.aspect << " " << std::fixed << std::setprecision(2)
+        << pose.orientation_rad * 180 / std::numbers::pi << " deg: ";
     if (pose.marginal) warnings.push_back(who.str() + "marginal: decided by less than a millionth of a millimetre");
     if (pose.unsupported_mm && pose.tip_mm && *pose.unsupported_mm < *pose.tip_mm) {
-      warnings.push_back(who.str() + "unsupported for " + mm(*pose.unsupported_mm) + " only, but needs " + mm(*pose.tip_mm) + " to tip");
+      warnings.push_back(who.str() + "unsupported for " + mm(*pose.unsupported_mm) + " only, but needs " +
+                         mm(*pose.tip_mm) + " to tip");
     }
     if (pose.may_catch) warnings.push_back(who.str() + "its nose may catch on the void's far edge");
   }

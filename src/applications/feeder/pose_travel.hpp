@@ -9,8 +9,8 @@
 
 namespace formotion::feeder {
 
-inline constexpr double kLost_mm = -1e-9;      // margins below this are losses; 0 is marginal and holds
-inline constexpr double kMarginal_mm = 1e-6;   // decisions by less than this mean nothing
+inline constexpr double kLost_mm = -1e-9;     // margins below this are losses; 0 is marginal and holds
+inline constexpr double kMarginal_mm = 1e-6;  // decisions by less than this mean nothing
 
 struct PoseTravel {
   PoseResult result;
@@ -18,7 +18,8 @@ struct PoseTravel {
 };
 
 // detail: also unsupported travel, tipping, catching, and the sentences.
-std::vector<PoseTravel> travel_all(const PartModel& part, const Layout& layout, const Environment& environment, bool detail);
+std::vector<PoseTravel> travel_all(const PartModel& part, const Layout& layout, const Environment& environment,
+                                   bool detail);
 
 // Webs between voids thinner than least_mm, within the strip.
 void check_webs(const Layout& layout, double least_mm, double track_width_mm, std::vector<Violation>& violations);

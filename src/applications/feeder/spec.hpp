@@ -27,9 +27,9 @@ struct AspectSpec {
   std::string name;  // "up", "down" or the user's
   AffineLoop outline_mm;
   std::vector<AffineLoop> holes_mm;
-  double height_mm = 0;                  // the part's thickness in this aspect
-  std::optional<Point> com_mm;           // default: the centroid (of the volume where there are layers)
-  std::optional<double> com_height_mm;   // above the track; default: half of height_mm
+  double height_mm = 0;                 // the part's thickness in this aspect
+  std::optional<Point> com_mm;          // default: the centroid (of the volume where there are layers)
+  std::optional<double> com_height_mm;  // above the track; default: half of height_mm
   double probability = 1;
   std::vector<LayerSpec> layers;  // ascending; the first is the footprint; empty: the outline at all heights
 };
@@ -49,19 +49,37 @@ struct Environment {
   double settling_friction = 0;
 };
 
-struct Balcony { Affine width_mm, length_mm; };
-struct Gap { Affine length_mm; };
-struct Canyon { Affine from_mm, to_mm, length_mm; };
-struct Slot { Affine from_mm, to_mm, length_mm; };
-struct Cutout { AffineLoop polygon_mm; };
-struct DishOut { Affine depth_mm, length_mm; };
-struct Scallop { Affine depth_mm, half_angle_rad; };
+struct Balcony {
+  Affine width_mm, length_mm;
+};
+struct Gap {
+  Affine length_mm;
+};
+struct Canyon {
+  Affine from_mm, to_mm, length_mm;
+};
+struct Slot {
+  Affine from_mm, to_mm, length_mm;
+};
+struct Cutout {
+  AffineLoop polygon_mm;
+};
+struct DishOut {
+  Affine depth_mm, length_mm;
+};
+struct Scallop {
+  Affine depth_mm, half_angle_rad;
+};
 struct Drawing {
   std::string file;  // as written in the problem file
   std::vector<Loop> voids_mm, walls_mm;
 };
-struct Wiper { Affine height_mm; };
-struct HoldDown { Affine height_mm, length_mm; };
+struct Wiper {
+  Affine height_mm;
+};
+struct HoldDown {
+  Affine height_mm, length_mm;
+};
 
 struct FeatureSpec {
   std::variant<Balcony, Gap, Canyon, Slot, Cutout, DishOut, Scallop, Drawing, Wiper, HoldDown> shape;
@@ -84,7 +102,7 @@ struct Manufacture {
 };
 
 struct Uncertainty {
-  double outline_mm = 0, com_mm = 0, feature_mm = 0;  // half-widths
+  double outline_mm = 0, com_mm = 0, feature_mm = 0;           // half-widths
   std::map<std::string, std::pair<double, double>> intervals;  // as written: "wall_friction", "drive_deg", ...
   bool any() const { return outline_mm > 0 || com_mm > 0 || feature_mm > 0 || !intervals.empty(); }
 };

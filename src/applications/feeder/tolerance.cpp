@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <optional>
 
@@ -13,13 +14,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kPrecision_mm = 1e-8;
-constexpr int kMostTangents = 24;  // refinements of arcs: each one at least quarters the error that it meets
-
-// The place that decided a margin, in the world.
-struct Place {
-  LeastMargin least;
-  double supported_y_mm = 0;
-};
+constexpr int kMostRefinements = 24;
+constexpr double kFineArc_rad = 0.05;
 
 class Search {
  public:
@@ -39,7 +35,8 @@ class Search {
     double best = *std::min_element(nominal.begin(), nominal.end());
     for (const int pose : order) {
       if (best <= 0) break;
-      if (slack(pose, best, nullptr) >= 0) continue;
+      LeastMargin least;
+      if (slack(pose, best, least) >= 0) continue;
       best = largest(pose, best);
     }
     return {std::max(best, 0.0), sweeps_};
@@ -94,93 +91,196 @@ class Search {
     return count;
   }
 
-  // How much better than demanded pose i does at e: negative if it fails. place: what decided.
-  double slack(int i, double e, Place* place) {
+  // How much better than demanded pose i does at e: negative if it fails. least: where its margin is least.
+  double slack(int i, double e, LeastMargin& least) {
     const PoseModel& pose = part_.poses[i];
-    LeastMargin least;
+    least = {};
+    bool unsupported = false;
     for (const VoidOutline& voids : outlines(delivered_[i], e)) {
       ++sweeps_;
       const LeastMargin found = least_margin({pose.travelling, voids, held_[i]});
+      unsupported = unsupported || found.unsupported;
       if (found.margin_mm < least.margin_mm) least = found;
     }
     least.margin_mm = std::min(least.margin_mm, pose.travelling.plain_margin_mm);
-    if (place) *place = {least, pose.travelling.supported_y_mm};
+    if (delivered_[i] && unsupported) return -e - kPrecision_mm;
     if (delivered_[i]) return std::min(least.margin_mm, clearance_[i]) - e;
     return std::min(std::max(-least.margin_mm, -clearance_[i]), part_.diameter_mm) - e;
   }
 
-  // The largest e below high that pose i bears; arcs that decide are made exact where they do.
+  // The largest e below high that pose i bears; where it fails just above, arcs are made exact, until they were not to
+  // blame.
   double largest(int i, double high) {
     double low = 0;
-    for (int refinement = 0; refinement < kMostTangents; ++refinement) {
-      Place place;
-      const double found = root(i, low, high, place);
-      low = std::max(low, found);
-      if (!refine(place, found)) break;
+    for (int refinement = 0; refinement < kMostRefinements; ++refinement) {
+      Failure failure;
+      low = root(i, low, high, failure);
+      if (low == high) break;
+      if (refine(i, failure)) continue;
+      // A delivered pose that fails at one place of the true shape fails. A lost one is kept at every place: elsewhere
+      // arcs may be to blame.
+      if (delivered_[i] || !finer_is_better(i, failure) || !refine(i, failure)) break;
     }
     return low;
   }
 
+  struct Failure {
+    double e = 0;
+    LeastMargin least;
+  };
+
   // Regula falsi with bisection where it does not halve the bracket: slack falls with e, but may jump.
-  double root(int i, double low, double high, Place& place) {
-    double at_low = slack(i, low, &place);
+  double root(int i, double low, double high, Failure& failure) {
+    double at_low = slack(i, low, failure.least), at_high = 0;
+    failure.e = low;
     if (at_low < 0) return low;
-    double at_high = slack(i, high, nullptr);
-    if (at_high >= 0) return high;
+    probe(i, high, low, high, at_low, at_high, failure);
     bool bisect = false;
     while (high - low > kPrecision_mm) {
       const double width = high - low;
       double e = bisect ? 0.5 * (low + high) : low + width * at_low / (at_low - at_high);
       e = std::clamp(e, low + 0.5 * std::min(kPrecision_mm, width), high - 0.5 * std::min(kPrecision_mm, width));
-      probe(i, e, low, high, at_low, at_high, place);
+      probe(i, e, low, high, at_low, at_high, failure);
       // A hit from one side leaves the other end of the bracket far away: look just beyond it.
       if (low == e && high - low > kPrecision_mm) {
-        probe(i, e + 0.9 * kPrecision_mm, low, high, at_low, at_high, place);
+        probe(i, e + 0.9 * kPrecision_mm, low, high, at_low, at_high, failure);
       } else if (high == e && high - low > kPrecision_mm) {
-        probe(i, e - 0.9 * kPrecision_mm, low, high, at_low, at_high, place);
+        probe(i, e - 0.9 * kPrecision_mm, low, high, at_low, at_high, failure);
       }
       bisect = high - low > 0.5 * width;
     }
     return low;
   }
 
-  void probe(int i, double e, double& low, double& high, double& at_low, double& at_high, Place& place) {
-    Place here;
-    const double value = slack(i, e, &here);
+  void probe(int i, double e, double& low, double& high, double& at_low, double& at_high, Failure& failure) {
+    LeastMargin least;
+    const double value = slack(i, e, least);
     if (value >= 0) {
       low = e;
       at_low = value;
-      place = here;
     } else {
       high = e;
       at_high = value;
+      failure = {e, least};
     }
   }
 
-  // Adds tangents where the deciding hull edge ends on the polygon that stands for an arc; false if it does not.
-  bool refine(const Place& place, double e) {
-    if (e <= 0 || !std::isfinite(place.least.margin_mm)) return false;
-    bool added = false;
-    for (const Point& end : {place.least.from, place.least.to}) {
-      const Point p = end + Point(place.least.x_mm, place.supported_y_mm);
-      double nearest = kInfinity;
-      Point corner = Point::Zero();
-      for (const VoidGroup& group : groups_) {
-        for (const Loop& loop : group.loops) {
-          for (std::size_t k = 0; k < loop.size(); ++k) {
-            const double to_edge = distance_to_segment(p, loop[k], loop[(k + 1) % loop.size()]);
-            nearest = std::min(nearest, to_edge);
-            if ((p - loop[k]).norm() <= nearest) {
-              nearest = (p - loop[k]).norm();
-              corner = loop[k];
-            }
-          }
+  // Whether lost pose i, which seems to be kept, is lost with finer arcs; failure becomes the place where it is.
+  bool finer_is_better(int i, Failure& failure) {
+    OffsetOptions options;
+    options.arc_step_rad = kFineArc_rad;
+    options.tangents = tangents_;
+    for (const VoidGroup& group : groups_at(failure.e)) {
+      const std::vector<Loop> loops = offset(group.loops, -failure.e, options);
+      if (loops.empty()) continue;
+      ++sweeps_;
+      const VoidOutline outline = VoidOutline::of(loops);
+      const LeastMargin found = least_margin({part_.poses[i].travelling, outline, held_[i]});
+      if (found.margin_mm >= -failure.e) continue;
+      failure.least = found;
+      return true;
+    }
+    return false;
+  }
+
+  // Makes arcs exact wherever the part's edges and corners meet them in the failure's configuration, and where arcs
+  // meet other boundaries under it. False if they were exact already: then the failure is one of the true shape.
+  bool refine(int i, const Failure& failure) {
+    const double e = failure.e;
+    if (e <= 0) return false;
+    const PoseModel& pose = part_.poses[i];
+    const Point at(failure.least.x_mm, pose.travelling.supported_y_mm);
+    const Point room = Point::Constant(0.1 * e);
+    const Point lo = pose.travelling.edges.box.min + at - room, hi = pose.travelling.edges.box.max + at + room;
+    const std::vector<VoidOutline>& outlines_now = outlines(delivered_[i], e);
+    std::vector<Loop> loops;
+    std::vector<Point> corners;
+    for (const VoidGroup& group : groups_) {
+      for (const Loop& loop : group.loops) {
+        loops.push_back(loop);
+        for (const Point& p : loop) {
+          if ((p.array() > lo.array() - e).all() && (p.array() < hi.array() + e).all()) corners.push_back(p);
         }
       }
-      const double excess = nearest - e;
-      if (excess < kPrecision_mm || excess > 0.2 * e || (p - corner).norm() > nearest + 1e-12) continue;
+    }
+    const auto to_voids = [&](const Point& p) {
+      double nearest = kInfinity;
+      for (const Loop& loop : loops) {
+        for (std::size_t k = 0; k < loop.size(); ++k) {
+          nearest = std::min(nearest, distance_to_segment(p, loop[k], loop[(k + 1) % loop.size()]));
+        }
+      }
+      return nearest;
+    };
+    const auto to_outline = [&](const Point& p) {
+      double nearest = kInfinity;
+      for (const VoidOutline& outline : outlines_now) {
+        for (const EdgeSet::Edge& edge : outline.edges.edges) {
+          nearest = std::min(nearest, distance_to_segment(p, edge.a, edge.b));
+        }
+      }
+      return nearest;
+    };
+    bool added = false;
+    const auto make_exact = [&](const Point& corner, const Point& p) {
+      for (const ArcTangent& known : tangents_) {
+        const double apart =
+            std::remainder(known.angle_rad - std::atan2(p.y() - corner.y(), p.x() - corner.x()), 2 * std::numbers::pi);
+        if (known.corner == corner && e * apart * apart < kPrecision_mm) return;
+      }
       tangents_.push_back({corner, std::atan2(p.y() - corner.y(), p.x() - corner.x())});
       added = true;
+    };
+    // A place of the exact boundary, on the arc about corner, that the polygon misses.
+    const auto on_arc = [&](const Point& corner, const Point& p) {
+      if ((p.array() < lo.array()).any() || (p.array() > hi.array()).any()) return;
+      if (to_outline(p) > kPrecision_mm && to_voids(p) > e - 1e-9) make_exact(corner, p);
+    };
+    for (const Point& corner : corners) {
+      // The deciding hull edge lies on the corner between two tangents.
+      for (const Point& end : {Point(failure.least.from + at), Point(failure.least.to + at)}) {
+        const double excess = (end - corner).norm() - e;
+        if (excess > kPrecision_mm && excess < 0.05 * e && to_voids(end) > e + kPrecision_mm) make_exact(corner, end);
+      }
+      for (const EdgeSet::Edge& edge : pose.travelling.edges.edges) {
+        const Point a = edge.a + at, along = edge.b - edge.a, from = a - corner;
+        // A corner of the part between the arc and its tangents.
+        const double out = from.norm() - e;
+        if (out > 0 && out < 0.05 * e && to_voids(a) > e) make_exact(corner, a);
+        // The edge about to touch the arc.
+        const Point normal = Point(along.y(), -along.x()).normalized();
+        for (const double side : {-e, e}) {
+          const Point touching = corner + side * normal;
+          if (distance_to_segment(touching, a, a + along) < 0.05 * e) on_arc(corner, touching);
+        }
+        const double aa = along.squaredNorm(), half_b = from.dot(along), c = from.squaredNorm() - e * e;
+        const double discriminant = half_b * half_b - aa * c;
+        if (discriminant < 0) continue;
+        for (const double sign : {-1.0, 1.0}) {
+          const double t = (-half_b + sign * std::sqrt(discriminant)) / aa;
+          if (t >= 0 && t <= 1) on_arc(corner, a + t * along);
+        }
+      }
+      for (const Point& other : corners) {  // two arcs
+        const Point between = other - corner;
+        const double d = between.norm();
+        if (d <= 1e-9 || d >= 2 * e) continue;
+        const Point across(-between.y() / d, between.x() / d);
+        for (const double side : {-1.0, 1.0}) {
+          on_arc(corner, corner + 0.5 * between + side * std::sqrt(e * e - 0.25 * d * d) * across);
+        }
+      }
+      for (const Loop& loop : loops) {  // an arc and a straight edge, moved
+        for (std::size_t k = 0; k < loop.size(); ++k) {
+          const Point t = (loop[(k + 1) % loop.size()] - loop[k]).normalized();
+          const Point normal = (delivered_[i] ? e : -e) * Point(t.y(), -t.x());
+          const Point from = loop[k] + normal - corner;
+          const double off = cross(t, from);
+          if (std::abs(off) >= e) continue;
+          const Point foot = corner + off * Point(-t.y(), t.x());
+          for (const double side : {-1.0, 1.0}) on_arc(corner, foot + side * std::sqrt(e * e - off * off) * t);
+        }
+      }
     }
     if (added) grown_.e = shrunk_.e = -1;
     return added;

@@ -8,7 +8,6 @@
 
 namespace formotion::feeder {
 
-
 struct ToleranceResult {
   double tolerance_mm = 0;
   std::int64_t sweeps = 0;

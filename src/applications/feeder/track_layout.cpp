@@ -14,7 +14,9 @@ namespace {
 constexpr double kChord_mm = 0.002;  // arcs leave their chords by at most this
 constexpr double kLeastArea_mm2 = 1e-9;
 
-double step_for_chord(double radius) { return 2 * std::acos(std::max(0.0, 1 - kChord_mm / std::max(radius, kChord_mm))); }
+double step_for_chord(double radius) {
+  return 2 * std::acos(std::max(0.0, 1 - kChord_mm / std::max(radius, kChord_mm)));
+}
 
 struct Raw {
   std::vector<Loop> voids;
@@ -24,7 +26,8 @@ struct Raw {
 // Builds a feature's voids from its own start; reports impossible values as violations.
 class Builder {
  public:
-  Builder(double track_width, double beyond, std::span<const double> values, std::vector<Violation>& invalid, std::string where)
+  Builder(double track_width, double beyond, std::span<const double> values, std::vector<Violation>& invalid,
+          std::string where)
       : width_(track_width), beyond_(beyond), values_(values), invalid_(invalid), where_(std::move(where)) {}
 
   Raw operator()(const Balcony& f) {
@@ -63,7 +66,8 @@ class Builder {
     loop.back() = {length, width_};
     // Far circles are cut off; what lies there is air in any case.
     const double out = std::min(beyond_, radius);
-    const double wider = std::sqrt(std::max(0.0, radius * radius - std::pow(std::max(0.0, radius - depth - out), 2))) - length / 2;
+    const double wider =
+        std::sqrt(std::max(0.0, radius * radius - std::pow(std::max(0.0, radius - depth - out), 2))) - length / 2;
     loop.emplace_back(length + wider, width_ + out);
     loop.emplace_back(-wider, width_ + out);
     return {{loop}, length};
@@ -117,7 +121,8 @@ class Builder {
 };
 
 // What a round cutter can reach of the voids: their opening by a disc.
-std::vector<Loop> milled(const std::vector<Loop>& voids, double radius, const std::string& where, std::vector<Violation>& invalid) {
+std::vector<Loop> milled(const std::vector<Loop>& voids, double radius, const std::string& where,
+                         std::vector<Violation>& invalid) {
   std::vector<Loop> result;
   OffsetOptions options;
   options.arc_step_rad = step_for_chord(radius);
@@ -152,19 +157,21 @@ bool boxes_overlap(const std::vector<Loop>& loops) {
 
 }  // namespace
 
-Layout lay_out(const DesignSpec& design, const Environment& environment, const Manufacture& manufacture, double part_diameter_mm,
-               std::span<const double> values) {
+Layout lay_out(const DesignSpec& design, const Environment& environment, const Manufacture& manufacture,
+               double part_diameter_mm, std::span<const double> values) {
   Layout layout;
   const double beyond = environment.track_width_mm + 10 * part_diameter_mm + 100;
   const double spacing = environment.spacing_mm.value_or(part_diameter_mm);
   double next = 0, first = 0, last = 0;
+  bool any_free = false;  // a feature without at_mm has been laid: the first of them starts at 0
   for (std::size_t i = 0; i < design.size(); ++i) {
     const FeatureSpec& spec = design[i];
     const std::string where = "feature " + std::to_string(i) + " (" + type_name(spec) + ")";
     Raw raw = std::visit(Builder(environment.track_width_mm, beyond, values, layout.invalid, where), spec.shape);
     LaidFeature feature;
     feature.type = type_name(spec);
-    feature.start_mm = spec.at_mm ? (*spec.at_mm)(values) : next;
+    feature.start_mm = spec.at_mm ? (*spec.at_mm)(values) : any_free ? next : 0;
+    any_free = any_free || !spec.at_mm;
     feature.end_mm = feature.start_mm + raw.length;
     feature.voids = std::move(raw.voids);
     if (manufacture.cutter_radius_mm && *manufacture.cutter_radius_mm > 0) {
@@ -193,7 +200,8 @@ std::vector<VoidGroup> grouped(const Layout& layout, double reach_mm) {
   for (int i = 0; i < static_cast<int>(layout.features.size()); ++i) {
     if (!layout.features[i].voids.empty()) order.push_back(i);
   }
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return layout.features[a].x_min < layout.features[b].x_min; });
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return layout.features[a].x_min < layout.features[b].x_min; });
   std::vector<VoidGroup> groups;
   double end = 0;
   for (const int i : order) {

@@ -13,9 +13,9 @@ namespace formotion::feeder {
 struct LaidFeature {
   std::string type;
   double start_mm = 0, end_mm = 0;
-  std::vector<Loop> voids;  // counter-clockwise; features that are open to the free edge go on beyond it
-  double x_min = 0, x_max = 0;       // of the voids
-  std::optional<double> blade_mm;    // wiper, hold-down: height over the track
+  std::vector<Loop> voids;         // counter-clockwise; features that are open to the free edge go on beyond it
+  double x_min = 0, x_max = 0;     // of the voids
+  std::optional<double> blade_mm;  // wiper, hold-down: height over the track
   bool holds_down = false;
 };
 
@@ -31,8 +31,8 @@ struct VoidGroup {
   std::vector<Loop> loops;    // disjoint, the void to the left
 };
 
-Layout lay_out(const DesignSpec& design, const Environment& environment, const Manufacture& manufacture, double part_diameter_mm,
-               std::span<const double> values);
+Layout lay_out(const DesignSpec& design, const Environment& environment, const Manufacture& manufacture,
+               double part_diameter_mm, std::span<const double> values);
 std::vector<VoidGroup> grouped(const Layout& layout, double reach_mm);
 
 }  // namespace formotion::feeder

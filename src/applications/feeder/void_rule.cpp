@@ -45,8 +45,8 @@ std::vector<Loop> beyond_line(const Polygon& body, const Point& on_line, const P
   const double reach = 4 * diameter(body.outer) + 1;
   const Point along(-normal.y(), normal.x());
   // Counter-clockwise: along is normal turned by +90 degrees.
-  const Loop half_plane{on_line - reach * along, on_line - reach * along + reach * normal, on_line + reach * along + reach * normal,
-                        on_line + reach * along};
+  const Loop half_plane{on_line - reach * along, on_line - reach * along + reach * normal,
+                        on_line + reach * along + reach * normal, on_line + reach * along};
   return loops_of(intersection(loops_of(body), {half_plane}));
 }
 
@@ -74,7 +74,8 @@ bool falls_over(const PoseModel& pose, const SupportLoss::Edge& edge, const Supp
   for (const Point& p : outline) {
     low = std::min(low, direction.dot(p));
     high = std::max(high, direction.dot(p));
-    over_free_edge = over_free_edge || (p.y() > track_width_mm + kSlack_mm && normal.dot(p - on_line) > kSlack_mm);
+    over_free_edge = over_free_edge || (p.y() > track_width_mm + kSlack_mm &&
+                                        (loss.unsupported_entirely || normal.dot(p - on_line) > kSlack_mm));
   }
   if (over_free_edge) return true;
   const auto lets_through = [&](const VoidPieces::Piece& piece) {
@@ -83,7 +84,8 @@ bool falls_over(const PoseModel& pose, const SupportLoss::Edge& edge, const Supp
   };
   // A group's only void is what lies under the unsupported side.
   if (pieces.pieces.size() == 1) return lets_through(pieces.pieces.front());
-  const std::vector<Loop> unsupported = beyond_line(placed(pose.footprint, 0, offset), on_line, normal);
+  const Polygon body = placed(pose.footprint, 0, offset);
+  const std::vector<Loop> unsupported = loss.unsupported_entirely ? loops_of(body) : beyond_line(body, on_line, normal);
   return std::any_of(pieces.pieces.begin(), pieces.pieces.end(), [&](const VoidPieces::Piece& piece) {
     return lets_through(piece) && area_of(intersection(unsupported, loops_of(piece.polygon))) > kNoArea_mm2;
   });
@@ -134,7 +136,8 @@ bool holds_rectangle(const Polygon& polygon, const Point& direction, double leng
     for (std::size_t i = 0; i < loop.size(); ++i) {
       Loop corners;
       for (const Point& end : {loop[i], loop[(i + 1) % loop.size()]}) {
-        for (const Point& corner : {Point(along + across), Point(along - across), Point(-along + across), Point(-along - across)}) {
+        for (const Point& corner :
+             {Point(along + across), Point(along - across), Point(-along + across), Point(-along - across)}) {
           corners.push_back(end + corner);
         }
       }
@@ -146,8 +149,9 @@ bool holds_rectangle(const Polygon& polygon, const Point& direction, double leng
 
 bool falls_through(const PoseModel& pose, const SupportLoss& loss, const VoidPieces& pieces, double track_width_mm) {
   if (loss.tipping.empty()) return falls_over(pose, {Point::Zero(), Point::Zero()}, loss, pieces, track_width_mm);
-  return std::all_of(loss.tipping.begin(), loss.tipping.end(),
-                     [&](const SupportLoss::Edge& edge) { return falls_over(pose, edge, loss, pieces, track_width_mm); });
+  return std::all_of(loss.tipping.begin(), loss.tipping.end(), [&](const SupportLoss::Edge& edge) {
+    return falls_over(pose, edge, loss, pieces, track_width_mm);
+  });
 }
 
 }  // namespace formotion::feeder
