@@ -60,3 +60,11 @@ TEST_CASE("a pose that two rails hand over above a gap longer than it is lost") 
   CHECK(evaluation.poses[0].outcome == Outcome::Rejected);
   CHECK(*evaluation.metrics.tolerance_mm == 0);
 }
+
+TEST_CASE("a rail twice as high as the part, or more, holds nothing down") {
+  const auto outcome = [](double height) {
+    return evaluated(feeder_spec(block(), {at(hold_down(height, 80), -30), at(gap(20), 0)}, 40)).poses[0].outcome;
+  };
+  CHECK(outcome(11.9) == Outcome::Delivered);
+  CHECK(outcome(12) == Outcome::Rejected);
+}

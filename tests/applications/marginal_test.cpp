@@ -44,6 +44,15 @@ TEST_CASE("a slot that only touches the part's edge takes nothing") {
   CHECK(*el_on({slot(0, 0.5, 100)}).margin_mm == Approx(*el_on({slot(25, 30, 100)}).margin_mm).margin(0.51));
 }
 
+TEST_CASE("a slot drawn exactly to the wall leaves a lip of no width, that holds and is warned of") {
+  const auto at_wall = evaluated(feeder_spec(flat_part(el_outline(), true), {slot(0, 8, 100)}, 40));
+  CHECK(at_wall.poses[0].outcome == Outcome::Delivered);
+  CHECK(*at_wall.metrics.tolerance_mm == 0);
+  REQUIRE(at_wall.warnings.size() == 1);
+  CHECK(at_wall.warnings[0].find("0.00 mm before the wall") != std::string::npos);
+  CHECK(el_on({slot(-1, 8, 100)}).outcome == Outcome::Rejected);
+}
+
 TEST_CASE("features of no length, at or beyond the free edge, or below the wall change nothing") {
   const double plain = *el_on({slot(30, 35, 10)}).margin_mm;
   for (const auto& feature : {gap(0), balcony(40, 50), balcony(55, 50), balcony(9, 0), slot(-9, 0, 40), dish_out(0, 30),

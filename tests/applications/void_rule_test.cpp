@@ -135,3 +135,37 @@ TEST_CASE("a faster track gives less time to tip, and may make that a violation"
   CHECK_FALSE(has_no_time(unasked));
   CHECK_FALSE(unasked.warnings.empty());
 }
+
+TEST_CASE("what a jammed pose lacks is what its void lacks: the slope that a search follows") {
+  const auto lacking = [](double to_mm) {
+    // On the long edge, its centre of mass 10 mm from the wall: the slot takes it from 10 mm on, and is too narrow for
+    // 12 mm of thickness until it is as wide.
+    const auto evaluation = evaluated(feeder_spec(plate(30, 20, 12), {slot(-1, to_mm, 60)}, 40));
+    for (const auto& violation : evaluation.violations) {
+      if (violation.what == "a pose jams" && violation.where.find(" 0.00 deg") != std::string::npos)
+        return violation.by;
+    }
+    return 0.0;
+  };
+  // (Drawn from below the wall: a slot from 0 would leave the wall's line as a lip.)
+  CHECK(lacking(10.5) == Approx(1.5));
+  CHECK(lacking(11.5) == Approx(0.5));
+  CHECK(lacking(12.1) == 0);
+}
+
+TEST_CASE("an obstacle on the track leaves the poses that reach it undecided, and those that pass beside it alone") {
+  const auto evaluate_with = [](const Loop& obstacle, feeder::DesignSpec before) {
+    before.push_back({feeder::Drawing{"", {}, {obstacle}}, std::nullopt});
+    return evaluated(feeder_spec(plate(30, 10, 3), std::move(before), 60));
+  };
+  const auto reached = evaluate_with(rectangle(0, 5, 10, 20), {});
+  CHECK_FALSE(reached.feasible);
+  for (const auto& pose : reached.poses) CHECK(pose.outcome == Outcome::Undecided);
+  // 10 mm high on the long edge, 30 mm on the short one.
+  const auto beside = evaluate_with(rectangle(0, 12, 10, 20), {});
+  CHECK(beside.poses[0].outcome == Outcome::Delivered);
+  CHECK(beside.poses[1].outcome == Outcome::Undecided);
+  // A gap before it takes all of them first.
+  const auto gone = evaluate_with(rectangle(0, 5, 10, 20), {gap(50)});
+  for (const auto& pose : gone.poses) CHECK(pose.outcome == Outcome::Rejected);
+}

@@ -473,7 +473,8 @@ Confirmation compare(const FeederProblem& problem, int topology, std::span<const
     pose.x_max = box.max.x();
     for (const Plan::Blade& blade : plan.blades) {
       pose.blade = std::min(pose.blade, blade.height - pose.height);
-      if (blade.holds && pose.height <= blade.height && blade.start - pose.x_min < blade.end - pose.x_max) {
+      const bool holds = blade.holds && pose.height <= blade.height && blade.height < 2 * pose.height;
+      if (holds && blade.start - pose.x_min < blade.end - pose.x_max) {
         pose.held.push_back({blade.start - pose.x_min, blade.end - pose.x_max});
       }
     }

@@ -297,7 +297,8 @@ FeederProblem::Model::Judged FeederProblem::Model::judge(int topology, std::span
       };
       if (delivered[i] && !is_goal[i]) violate("a wrong pose is delivered", by);
       if (!delivered[i] && (is_goal[i] || spec.goal.one_pose)) lost_goal = lost_goal < 0 ? by : std::min(lost_goal, by);
-      if (pose.outcome == Outcome::Jammed) violate("a pose jams", 1);
+      if (pose.outcome == Outcome::Jammed) violate("a pose jams", std::max(1e-3, travels[i].lacking_mm));
+      if (pose.outcome == Outcome::Undecided) violate("a pose is undecided", 1);
       if (spec.goal.require_tip && !delivered[i] && pose.unsupported_mm && pose.tip_mm &&
           *pose.unsupported_mm < *pose.tip_mm) {
         violate("a lost pose has no time to tip", *pose.tip_mm - *pose.unsupported_mm);

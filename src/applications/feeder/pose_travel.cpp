@@ -15,6 +15,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kGravity_mm_s2 = 9810;
 constexpr double kTipDrop_mm = 1;
+constexpr double kThinLip_mm = 1;  // lips thinner than this are likely not meant
 
 struct Group {
   VoidGroup voids;
@@ -126,6 +127,8 @@ class Judge {
     const int blade = first_blade(pose);
     const double blade_x = blade < 0 ? kInfinity : layout_.features[blade].start_mm - pose.x_max;
     const double clearance = blade_clearance(pose, layout_);
+    const double gone_x = std::min(lost_group < 0 ? kInfinity : first.x_mm, blade_x);
+    if (const int obstacle = first_obstacle(pose, gone_x); obstacle >= 0) return meets_obstacle(obstacle, travel);
     if (lost_group < 0 && blade < 0) {
       result.outcome = Outcome::Delivered;
       result.exit_orientation_rad = result.orientation_rad;
@@ -145,6 +148,7 @@ class Judge {
     if (blade >= 0 && (lost_group < 0 || blade_x <= first.x_mm)) {
       const bool rail = layout_.features[blade].holds_down;
       result.outcome = rail ? Outcome::Jammed : Outcome::Rejected;
+      if (rail) travel.lacking_mm = pose.height_mm - *layout_.features[blade].blade_mm;
       result.decided_by = Decision{blade, blade_x};
       if (detail_) {
         result.reason = mm(pose.height_mm) + " high, " + mm(-clearance) + " too high for " + named(layout_, blade) +
@@ -154,8 +158,8 @@ class Judge {
     }
     Group& group = groups_[lost_group];
     if (!group.pieces) group.pieces = void_pieces(group.voids, environment_.track_width_mm);
-    const bool falls = falls_through(pose, first, *group.pieces, environment_.track_width_mm);
-    result.outcome = falls ? Outcome::Rejected : Outcome::Jammed;
+    travel.lacking_mm = fall_shortfall(pose, first, *group.pieces, environment_.track_width_mm);
+    result.outcome = travel.lacking_mm == 0 ? Outcome::Rejected : Outcome::Jammed;
     result.decided_by = Decision{feature_under(group.voids, layout_, pose, first.x_mm), first.x_mm};
     if (detail_) describe_loss(pose, first, group, -lost_margin[lost_group], result);
     return travel;
@@ -170,6 +174,26 @@ class Judge {
       if (first < 0 || feature.start_mm < layout_.features[first].start_mm) first = i;
     }
     return first;
+  }
+
+  // The feature whose obstacle stands in the pose's way before it is gone; -1 if none does.
+  int first_obstacle(const PoseModel& pose, double gone_x) const {
+    double top = 0;
+    for (const Polygon& body : pose.bodies) top = std::max(top, bounding_box(body.outer).max.y());
+    for (int i = 0; i < static_cast<int>(layout_.features.size()); ++i) {
+      for (const Loop& obstacle : layout_.features[i].obstacles) {
+        const Box box = bounding_box(obstacle);
+        if (box.max.y() > 0 && box.min.y() < top && box.min.x() - pose.x_max < gone_x) return i;
+      }
+    }
+    return -1;
+  }
+
+  // It would turn, or stop: not for this model to say.
+  PoseTravel meets_obstacle(int feature, PoseTravel travel) const {
+    travel.result.outcome = Outcome::Undecided;
+    if (detail_) travel.result.reason = "meets an obstacle of " + named(layout_, feature) + ", which may turn it";
+    return travel;
   }
 
   // Lost before the first feature; features may make the loss deeper.
@@ -290,11 +314,15 @@ void collect_warnings(const std::vector<PoseTravel>& travels, const Layout& layo
   }
   for (std::size_t i = 0; i < layout.features.size(); ++i) {
     for (const Loop& loop : layout.features[i].voids) {
-      const double top = bounding_box(loop).max.y();
-      if (top <= environment.track_width_mm && top > environment.track_width_mm - 1) {
-        warnings.push_back(named(layout, static_cast<int>(i)) + " ends " + mm(environment.track_width_mm - top) +
-                           " before the free edge: draw it past the edge if it shall be open");
-      }
+      // The metal is closed: even a lip of no width between a void and the edge that it is drawn to holds a part.
+      const Box box = bounding_box(loop);
+      const auto warn = [&](double lip_mm, const std::string& edge) {
+        if (lip_mm < 0 || lip_mm >= kThinLip_mm) return;
+        warnings.push_back(named(layout, static_cast<int>(i)) + " ends " + mm(lip_mm) + " before " + edge +
+                           ": draw it past there if it shall be open");
+      };
+      warn(environment.track_width_mm - box.max.y(), "the free edge");
+      warn(box.min.y(), "the wall");
     }
   }
 }

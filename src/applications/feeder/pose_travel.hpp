@@ -14,6 +14,7 @@ inline constexpr double kMarginal_mm = 1e-6;  // decisions by less than this mea
 
 struct PoseTravel {
   PoseResult result;
+  double lacking_mm = 0;  // jammed: about how far it is from being rejected
   double nominal_mm = 0;  // what a tolerance can use up: margin and clearance, or the depth of the loss
 };
 

@@ -304,6 +304,7 @@ std::vector<Interval> held_intervals(const PoseModel& pose, const Layout& layout
   std::vector<Interval> held;
   for (const LaidFeature& feature : layout.features) {
     if (!feature.holds_down || pose.height_mm > *feature.blade_mm) continue;
+    if (*feature.blade_mm >= 2 * pose.height_mm) continue;
     const Interval under{feature.start_mm - pose.x_min, feature.end_mm - pose.x_max};
     if (under.from < under.to) held.push_back(under);
   }

@@ -13,7 +13,8 @@ struct ToleranceResult {
   std::int64_t sweeps = 0;
 };
 
-// Positions of the centre of mass at which a rail holds the pose down: the whole pose is under it.
+// Positions of the centre of mass at which a rail holds the pose down: the whole pose is under it, and the rail is
+// lower than twice the pose (higher ones let it tip, and parts pass in piles).
 std::vector<Interval> held_intervals(const PoseModel& pose, const Layout& layout);
 
 // Signed clearance of the pose under the track's blades: the least of (blade height - part height); infinite without.

@@ -21,6 +21,7 @@ double step_for_chord(double radius) {
 struct Raw {
   std::vector<Loop> voids;
   double length = 0;
+  std::vector<Loop> obstacles = {};
 };
 
 // Builds a feature's voids from its own start; reports impossible values as violations.
@@ -85,6 +86,10 @@ class Builder {
     Raw raw;
     for (const Loop& loop : f.voids_mm) {
       raw.voids.push_back(normalised({loop, {}}).outer);
+      raw.length = std::max(raw.length, bounding_box(loop).max.x());
+    }
+    for (const Loop& loop : f.walls_mm) {
+      raw.obstacles.push_back(loop);
       raw.length = std::max(raw.length, bounding_box(loop).max.x());
     }
     return raw;
@@ -174,6 +179,10 @@ Layout lay_out(const DesignSpec& design, const Environment& environment, const M
     any_free = any_free || !spec.at_mm;
     feature.end_mm = feature.start_mm + raw.length;
     feature.voids = std::move(raw.voids);
+    feature.obstacles = std::move(raw.obstacles);
+    for (Loop& loop : feature.obstacles) {
+      for (Point& p : loop) p.x() += feature.start_mm;
+    }
     if (manufacture.cutter_radius_mm && *manufacture.cutter_radius_mm > 0) {
       feature.voids = milled(feature.voids, *manufacture.cutter_radius_mm, where, layout.invalid);
     }

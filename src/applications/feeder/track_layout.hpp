@@ -15,6 +15,7 @@ struct LaidFeature {
   double start_mm = 0, end_mm = 0;
   std::vector<Loop> voids;         // counter-clockwise; features that are open to the free edge go on beyond it
   double x_min = 0, x_max = 0;     // of the voids
+  std::vector<Loop> obstacles;     // what stands on the track
   std::optional<double> blade_mm;  // wiper, hold-down: height over the track
   bool holds_down = false;
 };

@@ -56,8 +56,30 @@ double area_of(const std::vector<Polygon>& polygons) {
   return area;
 }
 
-bool falls_over(const PoseModel& pose, const SupportLoss::Edge& edge, const SupportLoss& loss, const VoidPieces& pieces,
-                double track_width_mm) {
+constexpr double kLeastShortfall_mm = 1e-3;
+
+// How far a piece is from letting a pose of this height and length through, by the shorter of its two ways.
+double shortfall_of(const VoidPieces::Piece& piece, const Point& direction, double length_mm, double height_mm,
+                    double track_width_mm) {
+  if (piece.opening_mm >= height_mm - kSlack_mm) return 0;
+  if (holds_rectangle(piece.polygon, direction, length_mm, height_mm)) return 0;
+  const Point across(-direction.y(), direction.x());
+  double top = -1e300, from = 1e300, to = -1e300, near = 1e300, far = -1e300;
+  for (const Point& p : piece.polygon.outer) {
+    top = std::max(top, p.y());
+    from = std::min(from, direction.dot(p));
+    to = std::max(to, direction.dot(p));
+    near = std::min(near, across.dot(p));
+    far = std::max(far, across.dot(p));
+  }
+  const double to_edge = std::max(0.0, track_width_mm - top) + height_mm - piece.opening_mm;
+  const double to_rectangle = std::max(0.0, length_mm - (to - from)) + std::max(0.0, height_mm - (far - near));
+  return std::max(kLeastShortfall_mm, std::min(to_edge, to_rectangle));
+}
+
+// 0 if the pose falls over this edge, else how far it is from that.
+double shortfall_over(const PoseModel& pose, const SupportLoss::Edge& edge, const SupportLoss& loss,
+                      const VoidPieces& pieces, double track_width_mm) {
   // In the world: the pose moved to the position of the loss.
   const Point offset(loss.x_mm, 0);
   const Point on_line = edge.from + offset + Point(0, pose.travelling.supported_y_mm);
@@ -77,18 +99,21 @@ bool falls_over(const PoseModel& pose, const SupportLoss::Edge& edge, const Supp
     over_free_edge = over_free_edge || (p.y() > track_width_mm + kSlack_mm &&
                                         (loss.unsupported_entirely || normal.dot(p - on_line) > kSlack_mm));
   }
-  if (over_free_edge) return true;
-  const auto lets_through = [&](const VoidPieces::Piece& piece) {
-    return piece.opening_mm >= pose.height_mm - kSlack_mm ||
-           holds_rectangle(piece.polygon, direction, high - low, pose.height_mm);
+  if (over_free_edge) return 0;
+  const auto shortfall = [&](const VoidPieces::Piece& piece) {
+    return shortfall_of(piece, direction, high - low, pose.height_mm, track_width_mm);
   };
   // A group's only void is what lies under the unsupported side.
-  if (pieces.pieces.size() == 1) return lets_through(pieces.pieces.front());
+  if (pieces.pieces.size() == 1) return shortfall(pieces.pieces.front());
   const Polygon body = placed(pose.footprint, 0, offset);
   const std::vector<Loop> unsupported = loss.unsupported_entirely ? loops_of(body) : beyond_line(body, on_line, normal);
-  return std::any_of(pieces.pieces.begin(), pieces.pieces.end(), [&](const VoidPieces::Piece& piece) {
-    return lets_through(piece) && area_of(intersection(unsupported, loops_of(piece.polygon))) > kNoArea_mm2;
-  });
+  double least = pose.height_mm;
+  for (const VoidPieces::Piece& piece : pieces.pieces) {
+    const double found = shortfall(piece);
+    if (found >= least || area_of(intersection(unsupported, loops_of(piece.polygon))) <= kNoArea_mm2) continue;
+    least = found;
+  }
+  return least;
 }
 
 }  // namespace
@@ -147,11 +172,13 @@ bool holds_rectangle(const Polygon& polygon, const Point& direction, double leng
   return area_of(difference(loops_of(polygon), touched)) > 0;
 }
 
-bool falls_through(const PoseModel& pose, const SupportLoss& loss, const VoidPieces& pieces, double track_width_mm) {
-  if (loss.tipping.empty()) return falls_over(pose, {Point::Zero(), Point::Zero()}, loss, pieces, track_width_mm);
-  return std::all_of(loss.tipping.begin(), loss.tipping.end(), [&](const SupportLoss::Edge& edge) {
-    return falls_over(pose, edge, loss, pieces, track_width_mm);
-  });
+double fall_shortfall(const PoseModel& pose, const SupportLoss& loss, const VoidPieces& pieces, double track_width_mm) {
+  if (loss.tipping.empty()) return shortfall_over(pose, {Point::Zero(), Point::Zero()}, loss, pieces, track_width_mm);
+  double worst = 0;
+  for (const SupportLoss::Edge& edge : loss.tipping) {
+    worst = std::max(worst, shortfall_over(pose, edge, loss, pieces, track_width_mm));
+  }
+  return worst;
 }
 
 }  // namespace formotion::feeder
