@@ -7,24 +7,6 @@ using namespace formotion;
 using namespace formotion::witness;
 using feeder::Outcome;
 
-namespace {
-
-// A block of 30 x 18 x 6 that also stands on its long side.
-feeder::PartSpec block() {
-  feeder::AspectSpec flat, edge;
-  flat.name = "flat";
-  flat.outline_mm = literal(rectangle(0, 0, 30, 18));
-  flat.height_mm = 6;
-  flat.probability = 0.7;
-  edge.name = "edge";
-  edge.outline_mm = literal(rectangle(0, 0, 30, 6));
-  edge.height_mm = 18;
-  edge.probability = 0.3;
-  return {{flat, edge}};
-}
-
-}  // namespace
-
 TEST_CASE("a wiper rejects what is taller, a hold-down rail stops it") {
   for (const bool rail : {false, true}) {
     const auto evaluation = evaluated(feeder_spec(block(), {rail ? hold_down(10, 50) : wiper(10)}, 40));

@@ -57,6 +57,19 @@ feeder::PartSpec flat_part(const Loop& outline, bool flips, const std::vector<Lo
   return {{up, down}};
 }
 
+feeder::PartSpec block() {
+  feeder::AspectSpec flat, edge;
+  flat.name = "flat";
+  flat.outline_mm = literal(rectangle(0, 0, 30, 18));
+  flat.height_mm = 6;
+  flat.probability = 0.7;
+  edge.name = "edge";
+  edge.outline_mm = literal(rectangle(0, 0, 30, 6));
+  edge.height_mm = 18;
+  edge.probability = 0.3;
+  return {{flat, edge}};
+}
+
 Loop bibazu_l() {
   return {{0, 0}, {0, -30.491329}, {-10.4514, -30.491329}, {-10.4514, -9.52185}, {-40.62175, -9.52185}, {-40.62175, 0}};
 }
@@ -99,18 +112,8 @@ feeder::PartSpec random_part(Random& random) {
       return flat_part(gear(5 + below(random, 3), 10, 14), false);
     case 3:
       return flat_part(rectangle(0, 0, 24, 16), false, {{{6, 4}, {6, 11}, {18, 11}, {18, 4}}});
-    case 4: {  // a block that also lies on its long side
-      feeder::AspectSpec flat, edge;
-      flat.name = "flat";
-      flat.outline_mm = literal(rectangle(0, 0, 30, 18));
-      flat.height_mm = 6;
-      flat.probability = 0.7;
-      edge.name = "edge";
-      edge.outline_mm = literal(rectangle(0, 0, 30, 6));
-      edge.height_mm = 18;
-      edge.probability = 0.3;
-      return {{flat, edge}};
-    }
+    case 4:
+      return block();
     case 5: {  // a plate on a narrower foot
       feeder::AspectSpec foot;
       foot.name = "foot";

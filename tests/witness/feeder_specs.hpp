@@ -23,6 +23,7 @@ feeder::FeatureSpec at(feeder::FeatureSpec feature, double x);
 // Thickness 3 mm. com: default the centroid.
 feeder::PartSpec flat_part(const Loop& outline, bool flips, const std::vector<Loop>& holes = {},
                            std::optional<Point> com = std::nullopt);
+feeder::PartSpec block();  // 30 x 18 x 6 mm, also stands on its long side: aspects "flat" and "edge"
 Loop bibazu_l();    // the L-part of docs/feeder.md
 Loop el_outline();  // the el-shaped part of docs/feeder.md
 
