@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <functional>
@@ -6,6 +7,7 @@
 
 #include "commands.hpp"
 #include "io/input_error.hpp"
+#include "io/suggestion.hpp"
 #include "optimize/run_store.hpp"
 
 namespace {
@@ -24,6 +26,15 @@ void add_design_options(CLI::App& command, DesignChoice& choice) {
   command.add_option("--set", choice.settings, "NAME=VALUE: a variable's value")->expected(1)->take_all();
   command.add_option("--topology", choice.topology, "which of the problem's topologies (default: 0)")
       ->check(CLI::Range(0, 1000000));
+}
+
+// The error for a first word that is no command, or nothing (CLI11 would call the command missing).
+std::string unknown_command(const CLI::App& app, const std::string& word) {
+  std::vector<std::string> known;
+  for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+  if (word.rfind('-', 0) == 0 || std::find(known.begin(), known.end(), word) != known.end()) return "";
+  return "the unknown command '" + word + "'" + did_you_mean(word, known) +
+         (word == "verify" ? ", which is not in this version" : "");
 }
 
 int usage_error(const CLI::ParseError& error) {
@@ -99,6 +110,10 @@ int main(int argc, char** argv) {
   validate->add_flag("--folder", folder_only, "print the folder that optimize would use");
   validate->callback([&] { command = [&] { return run_validate(run.problem, folder_only); }; });
 
+  if (const std::string unknown = argc > 1 ? unknown_command(app, argv[1]) : ""; !unknown.empty()) {
+    std::cerr << "error: " << unknown << " (formotion --help lists the commands)\n";
+    return kBadInput;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) { return app.exit(help); } catch (const CLI::CallForVersion& version) {

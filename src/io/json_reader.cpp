@@ -88,7 +88,7 @@ ObjectReader::ObjectReader(const Json& value, std::string pointer, IssueList& is
 }
 
 const nlohmann::ordered_json* ObjectReader::find(const std::string& key) {
-  known_.push_back(key);
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
   if (!object_) return nullptr;
   const auto found = object_->find(key);
   return found == object_->end() ? nullptr : &*found;

@@ -31,10 +31,15 @@ void check_shape(const AffineLoop& outline, const std::vector<AffineLoop>& holes
   Polygon polygon{constant_loop(outline), {}};
   for (const AffineLoop& hole : holes) polygon.holes.push_back(constant_loop(hole));
   polygon = normalised(std::move(polygon));
+  // The keys beside the outline's.
+  const std::string beside = pointer.substr(0, pointer.rfind('/') + 1);
   if (const auto found = defect(polygon)) {
-    issues.add(pointer, *found, "a simple polygon with area, holes inside of it and apart");
+    const bool of_hole = found->rfind("hole ", 0) == 0;
+    const std::string number = of_hole ? found->substr(5, found->find(' ', 5) - 5) : "";
+    issues.add(of_hole ? beside + "holes_mm/" + number : pointer, *found,
+               "a simple polygon with area, holes inside of it and apart");
   } else if (com && locate(convex_hull(polygon.outer), *com, 1e-9) == Side::Outside) {
-    issues.add(pointer, "a centre of mass outside of the outline's hull",
+    issues.add(beside + "com_mm", "a centre of mass outside of the outline's hull",
                "one that some distribution of mass can have");
   }
 }

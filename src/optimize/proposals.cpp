@@ -12,6 +12,8 @@ namespace {
 constexpr std::uint64_t kProposals = 0xba7c4;  // purpose of the random stream
 constexpr int kMostDirectDimensions = 8;       // DIRECT-L's boxes are too coarse beyond
 constexpr double kScanShare = 0.2;             // of the budget goes to the first batch
+constexpr std::int64_t kMostAScan = 4000;      // so that a stop during the first batch of a long run loses little
+constexpr std::int64_t kLeastAScan = 100;      // a topology
 constexpr int kBatches = 12;                   // about as many batches follow
 constexpr std::int64_t kMostABatch = 2400;     // so that a stop loses little
 constexpr std::int64_t kTaskEvaluations = 150;
@@ -80,7 +82,8 @@ class Proposer {
   // objective.
   void scan() {
     const auto count = static_cast<std::int64_t>(spaces_.size());
-    const auto share = static_cast<std::int64_t>(kScanShare * static_cast<double>(budget_.evaluations)) / count;
+    const auto wanted = static_cast<std::int64_t>(kScanShare * static_cast<double>(budget_.evaluations));
+    const auto share = std::min(wanted, std::max(kMostAScan, kLeastAScan * count)) / count;
     for (int t = 0; t < static_cast<int>(spaces_.size()); ++t) {
       SearchTask& guess = add(Driver::Sbplx, t, 1, "the starting values");
       guess.start = std::nullopt;

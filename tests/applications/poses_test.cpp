@@ -184,3 +184,21 @@ TEST_CASE("of a part in layers the footprint alone is supported, all layers meet
   CHECK(outcome({balcony(2.9, 90)}) != feeder::Outcome::Delivered);
   CHECK(outcome({balcony(8.1, 90)}) == feeder::Outcome::Delivered);
 }
+
+TEST_CASE("a pose on a real edge is kept however shallow; an arc's chords make one pose at most") {
+  // 20 x 10, the centre of mass 0.2 mm inside the end of the long edge: a rise of 0.0025 mm leads out of that pose.
+  const auto poses =
+      evaluated(feeder_spec(flat_part(rectangle(0, 0, 20, 10), false, {}, Point(19.8, 8)), {gap(1)})).poses;
+  REQUIRE(poses.size() == 4);
+  CHECK(poses[0].prior == Approx(0.2).margin(0.02));
+  // A quarter disc of 90 chords: it rests on its straight edges and, since its centre of mass lies between the arc and
+  // the arc's centre, on the middle of the arc.
+  Loop quarter{{0, 0}};
+  for (int i = 0; i <= 90; ++i) {
+    const double angle = i * std::numbers::pi / 180;
+    quarter.emplace_back(8 * std::cos(angle), 8 * std::sin(angle));
+  }
+  const auto of_disc = evaluated(feeder_spec(flat_part(quarter, false), {gap(1)})).poses;
+  REQUIRE(of_disc.size() == 3);
+  CHECK(of_disc[0].prior + of_disc[1].prior + of_disc[2].prior == Approx(1));
+}

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace formotion {
@@ -45,6 +46,16 @@ double work_out(const Loop& hull, std::size_t k, double orientation, int sense, 
     k = next;
   }
   return work;
+}
+
+// Whether edge `from` may be the chord of an arc with a sagitta of less than shallow_mm: length times turn / 8, by the
+// larger of the turns at its ends.
+bool is_chord(const Loop& hull, std::size_t from, double shallow_mm) {
+  const std::size_t n = hull.size();
+  const auto edge = [&](std::size_t k) -> Point { return hull[(k + 1) % n] - hull[k % n]; };
+  const auto turn = [](const Point& a, const Point& b) { return std::atan2(cross(a, b), a.dot(b)); };
+  const Point before = edge(from + n - 1), here = edge(from), after = edge(from + 1);
+  return here.norm() * std::max(turn(before, here), turn(here, after)) / 8 < shallow_mm;
 }
 
 // Poses out of which less work than shallow_mm leads are none: their basin goes to the neighbour on that side.
@@ -132,6 +143,10 @@ std::vector<WallPose> wall_poses(const Loop& points, double friction, const Wall
   std::vector<WaysOut> ways;
   for (const WallPose& pose : poses) {
     const auto from = static_cast<std::size_t>(std::find(hull.begin(), hull.end(), pose.edge_from) - hull.begin());
+    if (!is_chord(hull, from, options.shallow_mm)) {
+      ways.push_back({std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()});
+      continue;
+    }
     ways.push_back({work_out(hull, (from + 1) % n, pose.orientation_rad, -1, friction),
                     work_out(hull, from, pose.orientation_rad, +1, friction)});
   }

@@ -16,10 +16,10 @@ struct WallPose {
 
 struct WallPoseOptions {
   double tolerance_mm = 1e-9;  // a line through an edge's end, within this, is not stable on that side
-  // A pose that a rise of the centre of mass by less than this leads out of is none (with friction: as much work).
-  // Chords that stand for an arc make such poses where the arc itself has none: an arc of radius R about a centre at
-  // distance c from the centre of mass has r = c cos + R, which has no minimum there. Above the chord tolerance of
-  // imported arcs (0.002 mm).
+  // A pose on the chord of an arc that a rise of the centre of mass by less than this leads out of is none (with
+  // friction: as much work); poses on other edges are kept, however shallow. On an arc of radius R about a centre at
+  // distance c from the centre of mass r = R + c cos, with one minimum at most, its chords make many. Above the chord
+  // tolerance of imported arcs (0.002 mm).
   double shallow_mm = 0.0025;
 };
 

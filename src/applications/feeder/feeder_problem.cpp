@@ -307,6 +307,7 @@ FeederProblem::Model::Judged FeederProblem::Model::judge(int topology, std::span
     if (metrics.efficiency <= 0)
       result.violations.push_back({"the goal pose is not delivered", "goal", std::max(lost_goal, 1e-6)});
     for (const Violation& violation : result.violations) judged.violation += violation.by;
+    if (count == 0) result.violations.push_back({"the part rests in no pose on the wall", "part", 1});
     result.feasible = result.violations.empty();
     if (in_detail) collect_warnings(travels, layout, spec.environment, result.warnings);
 

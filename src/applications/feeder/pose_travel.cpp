@@ -25,7 +25,7 @@ struct Group {
 
 std::string mm(double value) {
   std::ostringstream out;
-  out << std::fixed << std::setprecision(2) << value << " mm";
+  out << std::fixed << std::setprecision(2) << (std::abs(value) < 0.005 ? 0 : value) << " mm";  // no -0.00
   return out.str();
 }
 
