@@ -24,8 +24,8 @@ feeder::FeatureSpec at(feeder::FeatureSpec feature, double x);
 feeder::PartSpec flat_part(const Loop& outline, bool flips, const std::vector<Loop>& holes = {},
                            std::optional<Point> com = std::nullopt);
 feeder::PartSpec block();  // 30 x 18 x 6 mm, also stands on its long side: aspects "flat" and "edge"
-Loop bibazu_l();    // the L-part of docs/feeder.md
-Loop el_outline();  // the el-shaped part of docs/feeder.md
+Loop bibazu_l();           // the L-part of docs/feeder.md
+Loop el_outline();         // the el-shaped part of docs/feeder.md
 
 // One design on a track of this width: goal "one pose", all objectives, no tilt.
 feeder::FeederSpec feeder_spec(feeder::PartSpec part, feeder::DesignSpec design, double track_width = 60);
