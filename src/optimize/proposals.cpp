@@ -62,7 +62,7 @@ class Proposer {
   }
 
   Merit free_merit(std::size_t focus) const {
-    return {focus, std::vector<std::optional<double>>(objective_count()), scale_, false};
+    return {focus, std::vector<std::optional<double>>(objective_count()), scale_};
   }
 
   SearchTask& add(Driver driver, int topology, std::int64_t evaluations, const std::string& what) {

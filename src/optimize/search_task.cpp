@@ -139,7 +139,6 @@ double Merit::operator()(const Score& score, const std::vector<Objective>& objec
     broken += std::max(0.0, objectives[k].loss(score.objectives[k]) - *at_most[k]) / scale[k];
   }
   if (!score.feasible || broken > 0) return kBroken + score.violation + broken;
-  if (only_feasibility) return 0;
   return objectives[focus].loss(score.objectives[focus]) / scale[focus];
 }
 

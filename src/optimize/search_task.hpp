@@ -18,7 +18,6 @@ struct Merit {
   std::size_t focus = 0;                       // the objective that is improved
   std::vector<std::optional<double>> at_most;  // per objective: the largest allowed loss
   std::vector<double> scale;                   // per objective: what counts as one unit
-  bool only_feasibility = false;               // rank feasible candidates equal: stop looking
   double operator()(const Score& score, const std::vector<Objective>& objectives) const;
 };
 

@@ -18,7 +18,7 @@ SearchTask task(Driver driver, std::int64_t evaluations) {
   result.topology = 1;
   result.evaluations = evaluations;
   result.seed = 11;
-  result.merit = {0, {std::nullopt, std::nullopt}, {1, 1}, false};
+  result.merit = {0, {std::nullopt, std::nullopt}, {1, 1}};
   return result;
 }
 
@@ -64,7 +64,7 @@ TEST_CASE("a bound on an objective is kept where it can be") {
 
 TEST_CASE("merits rank: bounds kept and feasible, bounds broken, infeasible; nearer ones first") {
   const std::vector<Objective> objectives{{"gain", true, 0, false}, {"cost", false, 0, false}};
-  const Merit merit{0, {std::nullopt, 5.0}, {1, 1}, false};
+  const Merit merit{0, {std::nullopt, 5.0}, {1, 1}};
   const auto score = [](bool feasible, double violation, double gain, double cost) {
     return Score{feasible, violation, {gain, cost}, {}, std::nullopt, 1};
   };

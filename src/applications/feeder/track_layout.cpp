@@ -12,7 +12,6 @@ namespace formotion::feeder {
 namespace {
 
 constexpr double kChord_mm = 0.002;  // arcs leave their chords by at most this
-constexpr double kLeastArea_mm2 = 1e-9;
 
 double step_for_chord(double radius) {
   return 2 * std::acos(std::max(0.0, 1 - kChord_mm / std::max(radius, kChord_mm)));
