@@ -18,7 +18,7 @@ async function bundle(entry) {
     format: 'iife',
     target: 'es2020',
     charset: 'ascii',
-    legalComments: 'none',
+    legalComments: 'eof', // the notices that the licences ask to keep
     logLevel: 'warning',
   });
   return result.outputFiles[0].text.trim();

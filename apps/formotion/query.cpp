@@ -1,6 +1,7 @@
 // query: JSON lines in, JSON lines out.
 #include <algorithm>
 #include <iostream>
+#include <map>
 #include <numbers>
 
 #include "chosen_design.hpp"
@@ -8,15 +9,16 @@
 #include "io/json_document.hpp"
 #include "io/json_reader.hpp"
 #include "io/suggestion.hpp"
+#include "query_answers.hpp"
 
 namespace formotion {
 namespace {
 
-const std::vector<std::string> kLaterTypes{"clearance", "contacts", "motion", "project", "facets"};
+const std::vector<std::string> kTypes{"support", "clearance", "contacts", "motion", "project", "facets"};
 
-feeder::Configuration read_configuration(const OrderedJson& value, IssueList& issues) {
+Configuration read_configuration(const OrderedJson& value, IssueList& issues) {
   ObjectReader object(value, "/q", issues);
-  feeder::Configuration q;
+  Configuration q;
   q.x_mm = object.required_number("x_mm", kAny);
   q.y_mm = object.required_number("y_mm", kAny);
   q.theta_rad = object.required_number("theta_deg", kAny) * std::numbers::pi / 180;
@@ -24,39 +26,78 @@ feeder::Configuration read_configuration(const OrderedJson& value, IssueList& is
   return q;
 }
 
-OrderedJson answer(const OrderedJson& request, const ChosenDesign& chosen, IssueList& issues) {
-  ObjectReader object(request, "", issues);
-  object.ignore({"id"});
-  object.require("type", "support");
-  const auto type = object.string("type");
-  if (type && *type != "support") {
-    const bool later = std::find(kLaterTypes.begin(), kLaterTypes.end(), *type) != kLaterTypes.end();
-    issues.add(
-        "/type",
-        "'" + *type + "'" + (later ? ", which this version does not answer yet" : did_you_mean(*type, {"support"})),
-        "support");
-    return {};
-  }
-  const std::vector<feeder::AspectShape> shapes = chosen.problem->shapes(chosen.values);
-  std::string aspect = shapes.front().name, list;
-  for (const feeder::AspectShape& shape : shapes) list += (list.empty() ? "" : ", ") + shape.name;
-  if (const auto named = object.string("aspect")) {
-    aspect = *named;
-    if (std::none_of(shapes.begin(), shapes.end(), [&](const feeder::AspectShape& s) { return s.name == aspect; })) {
-      issues.add("/aspect", "the unknown aspect '" + aspect + "'", "one of " + list);
+// A design with the worlds of its aspects, made when they are asked for.
+class Answers {
+ public:
+  explicit Answers(const ChosenDesign& chosen) : chosen_(chosen), shapes_(chosen.problem->shapes(chosen.values)) {}
+
+  OrderedJson operator()(const OrderedJson& request, IssueList& issues) {
+    ObjectReader object(request, "", issues);
+    object.ignore({"id"});
+    object.require("type", "one of " + list(kTypes));
+    const auto type = object.string("type");
+    if (type && std::find(kTypes.begin(), kTypes.end(), *type) == kTypes.end()) {
+      issues.add("/type", "the unknown type '" + *type + "'" + did_you_mean(*type, kTypes), "one of " + list(kTypes));
+      return {};
     }
-  } else if (shapes.size() > 1 && object.valid() && !request.contains("aspect")) {
-    issues.add("/aspect", "nothing", "one of " + list);
+    const std::string aspect = read_aspect(object, request, issues);
+    Configuration q;
+    if (type && *type != "facets") {
+      const OrderedJson* given = object.require("q", "a configuration {\"x_mm\", \"y_mm\", \"theta_deg\"}");
+      if (given) q = read_configuration(*given, issues);
+    }
+    double tolerance_mm = kTouches_mm;
+    if (type && (*type == "contacts" || *type == "motion"))
+      tolerance_mm = object.number_or("tolerance_mm", kPositive, tolerance_mm);
+    object.finish();
+    if (!issues.issues.empty()) return {};
+    if (*type == "support") return support(aspect, q);
+    const QueriedWorld& queried = world(aspect);
+    if (*type == "clearance") return clearance_answer(queried, q);
+    if (*type == "contacts") return contacts_answer(queried, q, tolerance_mm);
+    if (*type == "motion") return motion_answer(queried, q, tolerance_mm, issues);
+    if (*type == "project") return project_answer(queried, q, issues);
+    return facets_answer(queried);
   }
-  const OrderedJson* q = object.require("q", "a configuration {\"x_mm\", \"y_mm\", \"theta_deg\"}");
-  const feeder::Configuration configuration = q ? read_configuration(*q, issues) : feeder::Configuration{};
-  object.finish();
-  if (!issues.issues.empty()) return {};
-  const feeder::SupportAnswer found = chosen.problem->support(chosen.topology, chosen.values, aspect, configuration);
-  OrderedJson json{{"supported", found.supported}};
-  json["margin_mm"] = found.margin_mm ? OrderedJson(*found.margin_mm + 0.0) : OrderedJson(nullptr);
-  return json;
-}
+
+ private:
+  static std::string list(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+    return text;
+  }
+
+  std::string read_aspect(ObjectReader& object, const OrderedJson& request, IssueList& issues) const {
+    std::vector<std::string> names;
+    for (const feeder::AspectShape& shape : shapes_) names.push_back(shape.name);
+    const auto named = object.string("aspect");
+    if (named && std::find(names.begin(), names.end(), *named) == names.end()) {
+      issues.add("/aspect", "the unknown aspect '" + *named + "'", "one of " + list(names));
+    } else if (names.size() > 1 && object.valid() && !request.contains("aspect")) {
+      issues.add("/aspect", "nothing", "one of " + list(names));
+    }
+    return named.value_or(names.front());
+  }
+
+  OrderedJson support(const std::string& aspect, const Configuration& q) const {
+    const feeder::SupportAnswer found = chosen_.problem->support(chosen_.topology, chosen_.values, aspect, q);
+    OrderedJson json{{"supported", found.supported}};
+    json["margin_mm"] = found.margin_mm ? OrderedJson(*found.margin_mm + 0.0) : OrderedJson(nullptr);
+    return json;
+  }
+
+  const QueriedWorld& world(const std::string& aspect) {
+    const auto known = worlds_.find(aspect);
+    if (known != worlds_.end()) return known->second;
+    feeder::World made = chosen_.problem->world(chosen_.topology, chosen_.values, aspect);
+    WrittenNames names(*chosen_.problem, chosen_.topology, chosen_.values, aspect, made);
+    return worlds_.emplace(aspect, QueriedWorld{std::move(made), std::move(names)}).first->second;
+  }
+
+  const ChosenDesign& chosen_;
+  std::vector<feeder::AspectShape> shapes_;
+  std::map<std::string, QueriedWorld> worlds_;
+};
 
 std::string joined(const std::vector<InputIssue>& issues) {
   std::string text;
@@ -69,14 +110,14 @@ std::string joined(const std::vector<InputIssue>& issues) {
 }
 
 // One line's answer; whatever is wrong with it is said there.
-OrderedJson answer_line(const std::string& line, const ChosenDesign& chosen) {
+OrderedJson answer_line(const std::string& line, Answers& answers) {
   OrderedJson id = nullptr;
   IssueList issues{"query", {}};
   try {
     const OrderedJson request = parse_json(line, "query");
     if (request.is_object() && request.contains("id")) id = request["id"];
     OrderedJson json{{"id", id}};
-    OrderedJson found = answer(request, chosen, issues);
+    OrderedJson found = answers(request, issues);
     if (issues.issues.empty()) {
       json.update(found);
       return json;
@@ -89,9 +130,10 @@ OrderedJson answer_line(const std::string& line, const ChosenDesign& chosen) {
 
 int run_query(const DesignChoice& choice) {
   const ChosenDesign chosen = chosen_design(choice);
+  Answers answers(chosen);
   std::string line;
   while (std::getline(std::cin, line)) {
-    std::cout << answer_line(line, chosen).dump(-1, ' ', true, OrderedJson::error_handler_t::replace) << std::endl;
+    std::cout << answer_line(line, answers).dump(-1, ' ', true, OrderedJson::error_handler_t::replace) << std::endl;
   }
   return kDone;
 }

@@ -46,6 +46,9 @@ struct FeatureJson {
   }
   void operator()(const Wiper& s) const { put({{"height_mm", s.height_mm}}); }
   void operator()(const HoldDown& s) const { put({{"height_mm", s.height_mm}, {"length_mm", s.length_mm}}); }
+  void operator()(const Fence& s) const { f["polygon_mm"] = polygon_json(s.polygon_mm); }
+  void operator()(const WallProfile& s) const { f["profile_mm"] = polygon_json(s.profile_mm); }
+  void operator()(const Pin& s) const { put({{"x_mm", s.x_mm}, {"y_mm", s.y_mm}, {"diameter_mm", s.diameter_mm}}); }
 
   void put(const std::vector<std::pair<const char*, Affine>>& numbers) const {
     for (const auto& [key, value] : numbers) f[key] = value_of(value);
@@ -108,6 +111,20 @@ Json violations_json(const std::vector<Violation>& violations) {
   return json;
 }
 
+Json outcome_map_json(const std::vector<MapInterval>& map) {
+  Json json = Json::array();
+  for (const MapInterval& interval : map) {
+    json.push_back({{"aspect", interval.aspect},
+                    {"from_deg", degrees(interval.from_rad)},
+                    {"to_deg", degrees(interval.to_rad)},
+                    {"outcome", name(interval.outcome)}});
+    json.back()["exit_orientation_deg"] =
+        interval.exit_orientation_rad ? Json(degrees(*interval.exit_orientation_rad)) : Json(nullptr);
+    json.back()["thin"] = interval.thin;
+  }
+  return json;
+}
+
 Json evaluation_json(const FeederProblem& problem, int topology, std::span<const double> values,
                      const FeederEvaluation& evaluation) {
   Json json{{"formotion", 1}, {"kind", "feeder"}, {"feasible", evaluation.feasible}};
@@ -124,6 +141,7 @@ Json evaluation_json(const FeederProblem& problem, int topology, std::span<const
   json["goal_pose"] = evaluation.goal_pose >= 0 ? Json(evaluation.goal_pose) : Json(nullptr);
   json["poses"] = Json::array();
   for (const PoseResult& pose : evaluation.poses) json["poses"].push_back(pose_json(pose));
+  if (!evaluation.outcome_map.empty()) json["outcome_map"] = outcome_map_json(evaluation.outcome_map);
   return json;
 }
 

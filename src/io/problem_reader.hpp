@@ -23,7 +23,9 @@ feeder::Goal read_goal(const nlohmann::ordered_json& value, const feeder::PartSp
 feeder::Manufacture read_manufacture(const nlohmann::ordered_json* value, ReadContext& context);
 feeder::Uncertainty read_uncertainty(const nlohmann::ordered_json* value, ReadContext& context);
 
-AffineLoop read_loop(const nlohmann::ordered_json& value, const std::string& pointer, ReadContext& context);
+// At least `least` corners.
+AffineLoop read_loop(const nlohmann::ordered_json& value, const std::string& pointer, ReadContext& context,
+                     std::size_t least = 3);
 std::vector<AffineLoop> read_loops(const nlohmann::ordered_json* value, const std::string& pointer,
                                    ReadContext& context);
 Loop constant_loop(const AffineLoop& loop);  // the constants of its expressions

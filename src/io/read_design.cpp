@@ -1,4 +1,5 @@
 #include "analysis/geometry/polygon.hpp"
+#include "applications/feeder/track_layout.hpp"
 #include "io/dxf_import.hpp"
 #include "io/problem_reader.hpp"
 #include "io/suggestion.hpp"
@@ -8,9 +9,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const std::vector<std::string> kTypes{"balcony",  "gap",     "canyon",  "slot",  "cutout",
-                                      "dish-out", "scallop", "drawing", "wiper", "hold-down"};
-const std::vector<std::string> kTurningTypes{"fence", "wall", "pin"};
+const std::vector<std::string> kTypes{"balcony", "gap",   "canyon",    "slot",  "cutout", "dish-out", "scallop",
+                                      "drawing", "wiper", "hold-down", "fence", "wall",   "pin"};
 
 // One feature being read: its keys and where its issues go.
 struct FeatureReader {
@@ -38,17 +38,34 @@ feeder::Canyon read_band(FeatureReader& f) {
   return band;
 }
 
-feeder::Cutout read_cutout(FeatureReader& f) {
-  feeder::Cutout cutout;
-  if (const Json* polygon = f.object.require("polygon_mm", "at least three corners [[x, y], ...]")) {
-    cutout.polygon_mm = read_loop(*polygon, f.object.at("polygon_mm"), f.context);
-    if (!cutout.polygon_mm.empty() && cutout.polygon_mm.size() == polygon->size() && is_literal(cutout.polygon_mm)) {
-      if (const auto found = defect(normalised({constant_loop(cutout.polygon_mm), {}}))) {
-        f.context.issues.add(f.object.at("polygon_mm"), *found, "a simple polygon with area");
-      }
-    }
+// Corners under a key; those without variables are checked here: defect_of says what is wrong, expected what is right.
+template <class DefectOf>
+AffineLoop read_corners(FeatureReader& f, const std::string& key, std::size_t least, const DefectOf& defect_of,
+                        const std::string& expected) {
+  const std::string wanted = "at least " + std::string(least == 3 ? "three" : "two") + " corners [[x, y], ...]";
+  const Json* given = f.object.require(key, wanted);
+  if (!given) return {};
+  AffineLoop corners = read_loop(*given, f.object.at(key), f.context, least);
+  if (!corners.empty() && corners.size() == given->size() && is_literal(corners)) {
+    if (const std::optional<std::string> found = defect_of(constant_loop(corners)))
+      f.context.issues.add(f.object.at(key), *found, expected);
   }
-  return cutout;
+  return corners;
+}
+
+AffineLoop read_polygon(FeatureReader& f) {
+  const auto defect_of = [](const Loop& loop) { return defect(normalised({loop, {}})); };
+  return read_corners(f, "polygon_mm", 3, defect_of, "a simple polygon with area");
+}
+
+feeder::Pin read_pin(FeatureReader& f) {
+  feeder::Pin pin{f.expression("x_mm"), f.expression("y_mm"), f.expression("diameter_mm")};
+  const auto given = f.canonical.find("diameter_mm");
+  if (pin.diameter_mm.is_literal() && given != f.canonical.end() && given->is_number() &&
+      pin.diameter_mm.constant <= 0) {
+    f.context.issues.add(f.object.at("diameter_mm"), Json(pin.diameter_mm.constant).dump(), "a number above 0");
+  }
+  return pin;
 }
 
 feeder::DishOut read_dish_out(FeatureReader& f) {
@@ -129,7 +146,7 @@ void read_shape(const std::string& type, FeatureReader& f, feeder::FeatureSpec& 
     const feeder::Canyon band = read_band(f);
     spec.shape = feeder::Slot{band.from_mm, band.to_mm, band.length_mm};
   } else if (type == "cutout") {
-    spec.shape = read_cutout(f);
+    spec.shape = feeder::Cutout{read_polygon(f)};
   } else if (type == "dish-out") {
     spec.shape = read_dish_out(f);
   } else if (type == "scallop") {
@@ -138,6 +155,14 @@ void read_shape(const std::string& type, FeatureReader& f, feeder::FeatureSpec& 
     spec.shape = read_drawing(f);
   } else if (type == "wiper") {
     spec.shape = feeder::Wiper{f.length("height_mm")};
+  } else if (type == "fence") {
+    spec.shape = feeder::Fence{read_polygon(f)};
+  } else if (type == "wall") {
+    spec.shape = feeder::WallProfile{read_corners(f, "profile_mm", 2, feeder::profile_defect,
+                                                  "a polyline from its least to its largest x that does not cross "
+                                                  "itself")};
+  } else if (type == "pin") {
+    spec.shape = read_pin(f);
   } else {
     spec.shape = feeder::HoldDown{f.length("height_mm"), f.length("length_mm")};
   }
@@ -164,13 +189,6 @@ feeder::DesignSpec read_features(const Json& features, const std::string& pointe
     object.require("type", "a feature's type: " + list(kTypes));
     const auto type = object.string("type");
     if (!type) continue;
-    if (std::find(kTurningTypes.begin(), kTurningTypes.end(), *type) != kTurningTypes.end()) {
-      context.issues.add(
-          object.at("type"),
-          "'" + *type + "', which turns parts: this version only knows parts that keep their orientation",
-          "one of " + list(kTypes));
-      continue;
-    }
     if (std::find(kTypes.begin(), kTypes.end(), *type) == kTypes.end()) {
       context.issues.add(object.at("type"), "the unknown type '" + *type + "'" + did_you_mean(*type, kTypes),
                          "one of " + list(kTypes));

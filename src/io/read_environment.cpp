@@ -41,6 +41,7 @@ feeder::Environment read_environment(const Json* value, ReadContext& context) {
     environment.radius_of_gyration_mm = inner.number("radius_of_gyration_mm", kPositive);
     inner.finish();
   }
+  environment.start_y_mm = object.number("start_y_mm", kPositive);
   object.finish();
   return environment;
 }

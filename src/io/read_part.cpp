@@ -199,10 +199,11 @@ feeder::PartSpec read_part(const Json& value, ReadContext& context) {
   return part;
 }
 
-AffineLoop read_loop(const Json& value, const std::string& pointer, ReadContext& context) {
+AffineLoop read_loop(const Json& value, const std::string& pointer, ReadContext& context, std::size_t least) {
   AffineLoop loop;
-  if (!value.is_array() || value.size() < 3) {
-    context.issues.add(pointer, described(value), "at least three corners [[x, y], ...]");
+  if (!value.is_array() || value.size() < least) {
+    const std::string count = least == 3 ? "three" : "two";
+    context.issues.add(pointer, described(value), "at least " + count + " corners [[x, y], ...]");
     return loop;
   }
   for (std::size_t i = 0; i < value.size(); ++i) {

@@ -19,7 +19,7 @@ constexpr const char* kStyle =
     ".metal{fill:#d9dde2;stroke:none}.wall{fill:#fff;stroke:none}"
     ".cut{fill:none;stroke:#000;stroke-width:.5px;stroke-linejoin:round;stroke-linecap:round}"
     ".face{fill:none;stroke:#000;stroke-width:.7px}"
-    ".hatch{fill:none;stroke:#444;stroke-width:.18px}"
+    ".fixed{fill:url(#hatch);stroke:none}.centre{fill:none;stroke:#000;stroke-width:.18px;stroke-dasharray:3 .6 .6 .6}"
     ".break{fill:none;stroke:#000;stroke-width:.25px}"
     ".dim{fill:none;stroke:#1f3f77;stroke-width:.18px}.arrow{fill:#1f3f77;stroke:none}"
     ".axis{fill:none;stroke:#b00020;stroke-width:.25px;stroke-dasharray:6 1.2 .8 1.2}"
@@ -30,6 +30,12 @@ constexpr const char* kStyle =
     ".box{fill:none;stroke:#000;stroke-width:.35px}.rule{fill:none;stroke:#777;stroke-width:.15px}"
     ".feed{fill:#fff;stroke:#000;stroke-width:.3px}.solid{fill:#000;stroke:#000;stroke-width:.25px}"
     ".empty{fill:#fff;stroke:#000;stroke-width:.25px}";
+
+// Lines at 45 degrees on white: cut material.
+constexpr const char* kHatch =
+    "<defs><pattern id=\"hatch\" width=\"1.8\" height=\"1.8\" patternUnits=\"userSpaceOnUse\" "
+    "patternTransform=\"rotate(45)\"><rect width=\"1.8\" height=\"1.8\" fill=\"#fff\"/>"
+    "<path d=\"M.9 0V1.8\" stroke=\"#444\" stroke-width=\".18\"/></pattern></defs>";
 
 std::string number(double value) {
   char text[48];
@@ -139,8 +145,8 @@ std::string SvgCanvas::sheet(double width_mm, double height_mm, const std::strin
   const std::string w = number(width_mm), h = number(height_mm);
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + w +
          "mm\" height=\"" + h + "mm\" viewBox=\"0 0 " + w + " " + h + "\">\n<title>" + escaped(title) +
-         "</title>\n<style>" + kStyle + "</style>\n<rect width=\"" + w + "\" height=\"" + h + "\" fill=\"#fff\"/>\n" +
-         body_.str() + "</svg>\n";
+         "</title>\n<style>" + kStyle + "</style>\n" + kHatch + "\n<rect width=\"" + w + "\" height=\"" + h +
+         "\" fill=\"#fff\"/>\n" + body_.str() + "</svg>\n";
 }
 
 Box box_around(const Point& centre, double width, double height) {

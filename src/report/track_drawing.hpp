@@ -17,12 +17,15 @@ struct TrackDrawing {
 };
 
 // To scale: printed without fitting to the page, 1 mm on paper is 1 mm. What each feature removes is dimensioned from
-// the datum (x = 0) and the wall; the corners of cut-outs and drawings stand in tables.
+// the datum (x = 0) and the wall; the corners of cut-outs, drawings, fences and wall profiles, and pins, stand in
+// tables.
 std::string track_svg(const TrackDrawing& drawing);
 // Layers: TRACK (what is cut: the contours of the metal, outer and inner), VOID (what is removed: each void within the
 // strip as a closed contour, also where it is open to an edge, so that a `drawing` feature reads the track back), DATUM
-// (the wall's face y = 0 and the line x = 0), NOTE (texts), BLADE (wipers and rails, seen from above). Lengths in mm.
-// Metal that a void surrounds on all sides falls out when it is cut: it counts as void.
+// (y = 0 and the line x = 0), NOTE (texts), BLADE (wipers and rails, seen from above), WALL (what stands on the track,
+// as closed contours that a `drawing` feature reads back; pins as circles), FACE (the wall's face, where profiles
+// change it: recesses are only there), CENTER (crosses of pins). Lengths in mm. Metal that a void surrounds on all
+// sides falls out when it is cut: it counts as void.
 std::string track_dxf(const TrackDrawing& drawing);
 
 }  // namespace formotion

@@ -39,19 +39,15 @@ class Writer {
     group(6, line_type);
   }
 
-  void contour(const char* layer, const Loop& loop) {
-    group(0, "POLYLINE");
+  void contour(const char* layer, const Loop& loop) { polyline(layer, loop, true); }
+
+  void open_line(const char* layer, const Loop& points) { polyline(layer, points, false); }
+
+  void circle(const char* layer, const Disc& disc) {
+    group(0, "CIRCLE");
     group(8, layer);
-    group(66, 1);
-    point(10, Point::Zero());
-    group(70, 1);  // closed
-    for (const Point& p : loop) {
-      group(0, "VERTEX");
-      group(8, layer);
-      point(10, p);
-    }
-    group(0, "SEQEND");
-    group(8, layer);
+    point(10, disc.centre);
+    number(40, disc.radius_mm);
   }
 
   void line(const char* layer, const Point& from, const Point& to) {
@@ -96,6 +92,21 @@ class Writer {
     return result.substr(0, kLongest);
   }
 
+  void polyline(const char* layer, const Loop& points, bool closed) {
+    group(0, "POLYLINE");
+    group(8, layer);
+    group(66, 1);
+    point(10, Point::Zero());
+    group(70, closed ? 1 : 0);
+    for (const Point& p : points) {
+      group(0, "VERTEX");
+      group(8, layer);
+      point(10, p);
+    }
+    group(0, "SEQEND");
+    group(8, layer);
+  }
+
   std::string text_;
 };
 
@@ -103,7 +114,7 @@ void write_tables(Writer& out) {
   out.section("TABLES");
   out.group(0, "TABLE");
   out.group(2, "LTYPE");
-  out.group(70, 2);
+  out.group(70, 3);
   out.group(0, "LTYPE");
   out.group(2, "CONTINUOUS");
   out.group(70, 0);
@@ -120,22 +131,36 @@ void write_tables(Writer& out) {
   out.number(40, 4);
   out.number(49, 2.5);
   out.number(49, -1.5);
+  out.group(0, "LTYPE");
+  out.group(2, "CENTER");
+  out.group(70, 0);
+  out.group(3, "____ _ ____");
+  out.group(72, 65);
+  out.group(73, 4);
+  out.number(40, 6);
+  out.number(49, 3.5);
+  out.number(49, -0.75);
+  out.number(49, 1);
+  out.number(49, -0.75);
   out.group(0, "ENDTAB");
   out.group(0, "TABLE");
   out.group(2, "LAYER");
-  out.group(70, 6);
+  out.group(70, 9);
   out.layer("0", 7, "CONTINUOUS");
   out.layer("TRACK", 7, "CONTINUOUS");
   out.layer("VOID", 1, "CONTINUOUS");
   out.layer("DATUM", 5, "CONTINUOUS");
   out.layer("NOTE", 3, "CONTINUOUS");
   out.layer("BLADE", 6, "DASHED");
+  out.layer("WALL", 2, "CONTINUOUS");
+  out.layer("FACE", 4, "CONTINUOUS");
+  out.layer("CENTER", 8, "CENTER");
   out.group(0, "ENDTAB");
   out.end_section();
 }
 
 void write_notes(Writer& out, const TrackDrawing& drawing, const TrackOutline& outline) {
-  double y = -kOverhang_mm - kTextHeight_mm;
+  double y = outline.y_min - kOverhang_mm - kTextHeight_mm;
   const auto note = [&](const std::string& text) {
     out.note({outline.x_min, y}, text);
     y -= 1.6 * kTextHeight_mm;
@@ -143,6 +168,8 @@ void write_notes(Writer& out, const TrackDrawing& drawing, const TrackOutline& o
   note(drawing.title);
   note("lengths in mm; x along the feed from the datum, y from the wall's face");
   note("cut the contours of layer TRACK; layer VOID shows what is removed");
+  if (!outline.fences.empty() || !outline.pins.empty()) note("layer WALL shows what stands on the track");
+  if (outline.has_profile) note("layer FACE is the wall's face");
   for (const std::string& line : drawing.notes) note(line);
   for (std::size_t i = 0; i < drawing.features.size(); ++i) {
     const feeder::PlacedFeature& feature = drawing.features[i];
@@ -150,7 +177,7 @@ void write_notes(Writer& out, const TrackDrawing& drawing, const TrackOutline& o
     for (const auto& [name, value] : feature.dimensions) {
       if (feature.type == "wiper" || feature.type == "hold-down") text += ", " + name + " " + length_text(value);
     }
-    out.note({feature.start_mm, outline.width_mm + kTextHeight_mm * (1 + 1.6 * static_cast<double>(i % 3))}, text);
+    out.note({feature.start_mm, outline.y_max + kTextHeight_mm * (1 + 1.6 * static_cast<double>(i % 3))}, text);
   }
 }
 
@@ -165,9 +192,9 @@ std::string track_dxf(const TrackDrawing& drawing) {
   out.group(9, "$INSUNITS");
   out.group(70, 4);
   out.group(9, "$EXTMIN");
-  out.point(10, {outline.x_min, 0});
+  out.point(10, {outline.x_min, outline.y_min});
   out.group(9, "$EXTMAX");
-  out.point(10, {outline.x_max, outline.width_mm});
+  out.point(10, {outline.x_max, outline.y_max});
   out.end_section();
   write_tables(out);
   out.section("ENTITIES");
@@ -176,6 +203,14 @@ std::string track_dxf(const TrackDrawing& drawing) {
     for (const Loop& hole : piece.holes) out.contour("TRACK", hole);
   }
   for (const Loop& loop : outline.voids) out.contour("VOID", loop);
+  for (const Loop& loop : outline.fences) out.contour("WALL", loop);
+  for (const Disc& pin : outline.pins) {
+    out.circle("WALL", pin);
+    const double reach = pin.radius_mm + 1;
+    out.line("CENTER", pin.centre - Point(reach, 0), pin.centre + Point(reach, 0));
+    out.line("CENTER", pin.centre - Point(0, reach), pin.centre + Point(0, reach));
+  }
+  if (outline.has_profile) out.open_line("FACE", outline.face);
   out.line("DATUM", {outline.x_min - kOverhang_mm, 0}, {outline.x_max + kOverhang_mm, 0});
   out.line("DATUM", {0, -kOverhang_mm}, {0, outline.width_mm + kOverhang_mm});
   for (const feeder::PlacedFeature& feature : drawing.features) {

@@ -70,21 +70,137 @@ std::optional<Point> meeting(const Point& a, const Point& u, const Point& b, con
   return Point(a + u * (cross(b - a, v) / d));
 }
 
+// A circle as chords, for what meets other shapes.
+Loop chords(const Disc& disc) {
+  constexpr double kChord_mm = 0.002;
+  const double step = 2 * std::acos(std::max(0.5, 1 - kChord_mm / std::max(disc.radius_mm, kChord_mm)));
+  const int count = static_cast<int>(std::ceil(2 * std::numbers::pi / step));
+  Loop loop;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * std::numbers::pi * i / count;
+    loop.emplace_back(disc.centre + disc.radius_mm * Point(std::cos(angle), std::sin(angle)));
+  }
+  return loop;
+}
+
+double distance(const Point& p, const Loop& loop) {
+  if (locate(loop, p, 0) != Side::Outside) return 0;
+  double least = 1e300;
+  for (std::size_t i = 0; i < loop.size(); ++i)
+    least = std::min(least, distance_to_segment(p, loop[i], loop[(i + 1) % loop.size()]));
+  return least;
+}
+
+void add_obstacles(const TrackDrawing& drawing, TrackOutline& outline) {
+  constexpr double kApart_mm = 1e-3;  // contours nearer than this cannot be told apart when they are read back
+  std::vector<Loop> loops;
+  std::vector<Disc> discs;
+  for (const feeder::PlacedFeature& feature : drawing.features) {
+    const bool is_profile = !feature.wall_face_mm.empty();
+    for (const ObstacleShape& obstacle : feature.obstacles) {
+      if (obstacle.radius_mm > 0) {
+        discs.push_back({obstacle.area.outer.front(), obstacle.radius_mm});
+      } else if (!is_profile) {
+        loops.push_back(obstacle.area.outer);
+      } else {
+        const Box box = bounding_box(obstacle.area.outer);
+        if (box.max.y() <= 0) continue;
+        for (const Polygon& piece :
+             intersection({obstacle.area.outer}, {rectangle(box.min.x(), 0, box.max.x(), box.max.y())}))
+          loops.push_back(piece.outer);
+      }
+    }
+  }
+  std::vector<Loop> meeting_loops = loops;
+  for (std::size_t i = 0; i < discs.size(); ++i) {
+    const Disc& disc = discs[i];
+    bool apart = std::all_of(loops.begin(), loops.end(), [&](const Loop& loop) {
+      return distance(disc.centre, loop) > disc.radius_mm + kApart_mm;
+    });
+    for (std::size_t k = 0; k < discs.size(); ++k) {
+      apart =
+          apart && (k == i || (discs[k].centre - disc.centre).norm() > discs[k].radius_mm + disc.radius_mm + kApart_mm);
+    }
+    if (apart) {
+      outline.pins.push_back(disc);
+    } else {
+      meeting_loops.push_back(chords(disc));
+    }
+  }
+  for (const Polygon& polygon : united(meeting_loops)) outline.fences.push_back(polygon.outer);
+}
+
+// The wall with profiles in place of its face, by areas: profiles may overlap.
+void add_face(const TrackDrawing& drawing, TrackOutline& outline) {
+  std::vector<Loop> bodies, hollows;
+  Box box;
+  box.include({outline.x_min, 0});
+  box.include({outline.x_max, 0});
+  for (const feeder::PlacedFeature& feature : drawing.features) {
+    if (feature.wall_face_mm.empty()) continue;
+    outline.has_profile = true;
+    for (const Point& p : feature.wall_face_mm) box.include(p);
+  }
+  outline.face = {{outline.x_min, 0}, {outline.x_max, 0}};
+  if (!outline.has_profile) return;
+  const double bottom = box.min.y() - 1;
+  const Loop below = rectangle(outline.x_min, bottom, outline.x_max, 0);
+  for (const feeder::PlacedFeature& feature : drawing.features) {
+    if (feature.wall_face_mm.empty()) continue;
+    Loop body = feature.wall_face_mm;
+    body.emplace_back(body.back().x(), bottom);
+    body.emplace_back(body.front().x(), bottom);
+    body = normalised({body, {}}).outer;
+    for (const Polygon& hollow :
+         difference({rectangle(feature.wall_face_mm.front().x(), bottom, feature.wall_face_mm.back().x(), 0)}, {body}))
+      hollows.push_back(hollow.outer);
+    bodies.push_back(std::move(body));
+  }
+  for (const Polygon& piece : difference({below}, hollows)) bodies.push_back(piece.outer);
+  // The one piece with the corner below on the left; counter-clockwise the face comes from right to left.
+  for (const Polygon& wall : united(bodies)) {
+    const Loop& loop = wall.outer;
+    const auto corner = std::find_if(loop.begin(), loop.end(), [&](const Point& p) {
+      return std::abs(p.x() - outline.x_min) < 1e-6 && std::abs(p.y() - bottom) < 1e-6;
+    });
+    if (corner == loop.end()) continue;
+    const std::size_t first = static_cast<std::size_t>(corner - loop.begin());
+    outline.face.clear();
+    for (std::size_t i = loop.size() - 1; i > 1; --i) outline.face.push_back(loop[(first + i) % loop.size()]);
+    return;
+  }
+}
+
 }  // namespace
 
 TrackOutline track_outline(const TrackDrawing& drawing) {
   TrackOutline outline;
   outline.width_mm = drawing.track_width_mm;
   std::vector<Loop> loops;
+  Box box;
+  box.include({0, 0});
+  box.include({0, drawing.track_width_mm});
+  const auto include_x = [&box](const Point& p) { box.include({p.x(), 0}); };
   for (const feeder::PlacedFeature& feature : drawing.features) {
-    outline.x_min = std::min({outline.x_min, feature.start_mm, feature.end_mm});
-    outline.x_max = std::max({outline.x_max, feature.start_mm, feature.end_mm});
+    include_x({feature.start_mm, 0});
+    include_x({feature.end_mm, 0});
     for (const Polygon& polygon : feature.voids_mm) {
       loops.push_back(polygon.outer);
-      outline.x_min = std::min(outline.x_min, bounding_box(polygon.outer).min.x());
-      outline.x_max = std::max(outline.x_max, bounding_box(polygon.outer).max.x());
+      for (const Point& p : polygon.outer) include_x(p);
+    }
+    for (const Point& p : feature.wall_face_mm) box.include(p);
+    if (!feature.wall_face_mm.empty()) continue;
+    for (const ObstacleShape& obstacle : feature.obstacles) {
+      for (const Point& p : obstacle.area.outer) {
+        box.include(p.array() - obstacle.radius_mm);
+        box.include(p.array() + obstacle.radius_mm);
+      }
     }
   }
+  outline.x_min = box.min.x();
+  outline.x_max = box.max.x();
+  outline.y_min = box.min.y();
+  outline.y_max = box.max.y();
   outline.x_min -= drawing.margin_mm;
   outline.x_max += drawing.margin_mm;
   std::vector<Loop> filled;
@@ -92,6 +208,8 @@ TrackOutline track_outline(const TrackDrawing& drawing) {
   for (const Polygon& polygon : united(filled)) outline.voids.push_back(polygon.outer);  // islands are inside now
   std::sort(outline.voids.begin(), outline.voids.end(),
             [](const Loop& a, const Loop& b) { return bounding_box(a).min.x() < bounding_box(b).min.x(); });
+  add_obstacles(drawing, outline);
+  add_face(drawing, outline);
   outline.metal = difference({rectangle(outline.x_min, 0, outline.x_max, outline.width_mm)}, outline.voids);
   return outline;
 }

@@ -1,5 +1,5 @@
-// What a track's drawing shows: the voids of all features together, the metal that is left, and how to say a
-// contour's corners in few numbers.
+// What a track's drawing shows: the voids of all features together, the metal that is left, what stands on it, the
+// wall's face, and how to say a contour's corners in few numbers.
 #pragma once
 
 #include <optional>
@@ -10,11 +10,23 @@
 
 namespace formotion {
 
+struct Disc {
+  Point centre = Point::Zero();
+  double radius_mm = 0;
+};
+
 // A stretch of the track: x_min to x_max, 0 to its width.
 struct TrackOutline {
   double x_min = 0, x_max = 0, width_mm = 0;
   std::vector<Loop> voids;     // united, counter-clockwise; what they surround falls out, so it is void too
   std::vector<Polygon> metal;  // the stretch without the voids
+  // What stands on the track: fences and what wall profiles have above y = 0, united where they meet (no part gets into
+  // what they surround), and the pins that touch nothing else.
+  std::vector<Loop> fences;
+  std::vector<Disc> pins;
+  Loop face;                    // the wall's, x ascending; profiles in place of y = 0
+  double y_min = 0, y_max = 0;  // of obstacles, face and strip
+  bool has_profile = false;     // the face is not just y = 0
 };
 
 // From the margin before the first start, corner or x = 0 to the margin behind the last of these.
@@ -24,11 +36,6 @@ TrackOutline track_outline(const TrackDrawing& drawing);
 struct Corner {
   Point at = Point::Zero();
   double radius_mm = 0;  // 0: sharp
-};
-
-struct Disc {
-  Point centre = Point::Zero();
-  double radius_mm = 0;
 };
 
 // The corners of a loop whose arcs are chords (three or more equal turns in a row are an arc). Arcs that turn too

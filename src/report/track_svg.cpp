@@ -28,7 +28,13 @@ std::optional<double> dimension(const PlacedFeature& feature, const std::string&
   return std::nullopt;
 }
 
-bool by_corners(const PlacedFeature& feature) { return feature.type == "cutout" || feature.type == "drawing"; }
+// Shapes that a table of corners (and centres) says.
+bool by_corners(const PlacedFeature& feature) {
+  for (const char* type : {"cutout", "drawing", "fence", "wall", "pin"}) {
+    if (feature.type == type) return true;
+  }
+  return false;
+}
 
 // The radius of the feature's rounded corners, if it has such.
 double corner_radius(const PlacedFeature& feature) {
@@ -51,7 +57,7 @@ std::string remarks(const PlacedFeature& feature) {
 }
 
 std::string parameters(const PlacedFeature& feature, const std::string& name) {
-  if (by_corners(feature)) return "corners: table " + name;
+  if (by_corners(feature)) return (feature.type == "pin" ? "centre: table " : "corners: table ") + name;
   std::string text;
   for (const auto& [key, value] : feature.dimensions) {
     std::string word = key.substr(0, key.rfind('_'));
@@ -70,12 +76,15 @@ class Sheet {
     width_ = std::max(kLeastSheet_mm, strip + 2 * (kFrame_mm + kSide_mm));
     left_ = (width_ - strip) / 2;
     pack_labels();
-    top_ = kFrame_mm + 6 + kRow_mm * (label_rows_ + 0.5);
+    above_ = outline_.y_max - outline_.width_mm;
+    wall_ = kWall_mm - std::min(outline_.y_min, 0.0);
+    top_ = kFrame_mm + 6 + kRow_mm * (label_rows_ + 0.5) + above_;
   }
 
   std::string draw() {
     strip();
     wall();
+    obstacles();
     blades();
     labels();
     datum();
@@ -183,17 +192,35 @@ class Sheet {
 
   void wall() {
     const double from = page_x(outline_.x_min) - 4, to = page_x(outline_.x_max) + 4, y = page_y(0);
-    for (double x = from + 2; x <= to; x += 2.5) {
-      const double run = std::min(kWall_mm, x - from);
-      canvas_.line({x, y}, {x - run, y + run}, "hatch");
-    }
-    canvas_.line({from, y}, {to, y}, "face");
+    Loop face = on_paper(outline_.face);
+    face.insert(face.begin(), {from, y});
+    face.emplace_back(to, y);
+    Loop body = face;
+    body.emplace_back(to, y + wall_);
+    body.emplace_back(from, y + wall_);
+    canvas_.area({body}, "fixed");
+    canvas_.path(face, false, "face");
     canvas_.text({to + 2, y + 1}, "wall, y = 0", {2.5, Anchor::Start, false, false, true});
     canvas_.text({to + 2, page_y(outline_.width_mm) + 1}, "free edge", {2.5, Anchor::Start, false, false, true});
     const double x = page_x(outline_.x_min) - 10;
     for (const double edge : {0.0, outline_.width_mm})
       canvas_.line({x - 1.5, page_y(edge)}, {page_x(outline_.x_min) - 1, page_y(edge)}, "dim");
     canvas_.vertical_dimension(x, page_y(0), page_y(outline_.width_mm), length_text(outline_.width_mm));
+  }
+
+  void obstacles() {
+    for (const Loop& loop : outline_.fences) {
+      canvas_.area({on_paper(loop)}, "fixed");
+      canvas_.path(on_paper(loop), true, "face");
+    }
+    for (const Disc& pin : outline_.pins) {
+      const Point centre = on_paper(pin.centre);
+      canvas_.circle(centre, pin.radius_mm, "fixed");
+      canvas_.circle(centre, pin.radius_mm, "face");
+      const double reach = pin.radius_mm + 1.5;
+      canvas_.line({centre.x() - reach, centre.y()}, {centre.x() + reach, centre.y()}, "centre");
+      canvas_.line({centre.x(), centre.y() - reach}, {centre.x(), centre.y() + reach}, "centre");
+    }
   }
 
   void blades() {
@@ -206,7 +233,7 @@ class Sheet {
   }
 
   void labels() {
-    const double edge = page_y(outline_.width_mm);
+    const double edge = page_y(outline_.y_max);
     for (std::size_t i = 0; i < labels_.size(); ++i) {
       const PlacedFeature& feature = drawing_.features[i];
       const double y = edge - 5 - kRow_mm * labels_[i].row, from = page_x(feature.start_mm),
@@ -227,7 +254,7 @@ class Sheet {
 
   void datum() {
     const double x = page_x(0), y = page_y(0);
-    canvas_.line({x, page_y(outline_.width_mm) - 3}, {x, y + kWall_mm + 3}, "axis");
+    canvas_.line({x, page_y(outline_.width_mm) - 3}, {x, y + wall_ + 3}, "axis");
     canvas_.path({{x, y}, {x - 1.6, y + 2.8}, {x + 1.6, y + 2.8}}, true, "datum");
   }
 
@@ -279,47 +306,75 @@ class Sheet {
   void reserve_corners() {
     for (const PlacedFeature& feature : drawing_.features) {
       if (!by_corners(feature)) continue;
-      for (const Polygon& polygon : feature.voids_mm) {
-        for (const Point& p : polygon.outer) canvas_.take(box_around(on_paper(p), 0.6, 0.6));
-      }
+      const auto reserve = [&](const Loop& loop) {
+        for (const Point& p : loop) canvas_.take(box_around(on_paper(p), 0.6, 0.6));
+      };
+      for (const Polygon& polygon : feature.voids_mm) reserve(polygon.outer);
+      for (const ObstacleShape& obstacle : feature.obstacles) reserve(obstacle.area.outer);
     }
   }
 
-  // Numbers at the corners of cut-outs, and their table.
+  // A feature's table of corners while it is filled, and the numbers beside them.
+  struct CornerTable {
+    Sheet& sheet;
+    std::size_t feature;
+    Table table;
+    std::size_t count = 0;
+
+    CornerTable(Sheet& of, std::size_t index) : sheet(of), feature(index) {
+      table = {name(index) + " " + of.drawing_.features[index].type, {{"corner", "x", "y", ""}}};
+    }
+    void row(const Point& at, const Point& outward, const std::string& remark) {
+      const std::string label = std::to_string(feature + 1) + "." + std::to_string(++count);
+      sheet.number_at(label, at, outward);
+      table.rows.push_back({label, length_text(at.x()), length_text(at.y()), remark});
+    }
+    void disc(const Disc& disc) { row(disc.centre, {0, 0}, "centre of \u00d8" + length_text(2 * disc.radius_mm)); }
+    void summary(const Loop& loop) {
+      const Box box = bounding_box(loop);
+      table.rows.push_back(
+          {"least", length_text(box.min.x()), length_text(box.min.y()), "a contour of " + std::to_string(loop.size())});
+      table.rows.push_back(
+          {"greatest", length_text(box.max.x()), length_text(box.max.y()), "points: see the DXF file"});
+    }
+    void contour(const Loop& loop) {
+      if (const auto found = disc_of(loop)) return disc(*found);
+      const std::vector<Corner> found = corners_of(loop);
+      if (count + found.size() > kMostNumbered) return summary(loop);
+      for (std::size_t k = 0; k < found.size(); ++k) {
+        row(found[k].at, outwards(found, k), found[k].radius_mm > 0 ? "R" + length_text(found[k].radius_mm) : "");
+      }
+    }
+    void face(const Loop& points) {
+      if (points.size() > kMostNumbered) return summary(points);
+      for (const Point& p : points) row(p, {0, -1}, "");
+    }
+  };
+
+  // Numbers at the corners of cut-outs and obstacles, and their tables.
   void corners() {
-    canvas_.take({{page_x(outline_.x_min), page_y(0) - 0.4}, {page_x(outline_.x_max), page_y(0) + kWall_mm + 1}});
+    canvas_.take({{page_x(outline_.x_min), page_y(0) - 0.4}, {page_x(outline_.x_max), page_y(0) + wall_ + 1}});
     for (std::size_t i = 0; i < drawing_.features.size(); ++i) {
       const PlacedFeature& feature = drawing_.features[i];
       if (!by_corners(feature)) continue;
-      Table table{name(i) + " " + feature.type, {{"corner", "x", "y", ""}}};
-      std::size_t count = 0;
-      for (const Polygon& polygon : feature.voids_mm) {
-        const std::vector<Corner> found = corners_of(polygon.outer);
-        if (const auto disc = disc_of(polygon.outer)) {
-          const std::string label = std::to_string(i + 1) + "." + std::to_string(++count);
-          number_at(label, disc->centre, {0, 0});
-          table.rows.push_back({label, length_text(disc->centre.x()), length_text(disc->centre.y()),
-                                "centre of \u00d8" + length_text(2 * disc->radius_mm)});
-        } else if (count + found.size() > kMostNumbered) {
-          const Box box = bounding_box(polygon.outer);
-          table.rows.push_back({"least", length_text(box.min.x()), length_text(box.min.y()),
-                                "a contour of " + std::to_string(polygon.outer.size())});
-          table.rows.push_back(
-              {"greatest", length_text(box.max.x()), length_text(box.max.y()), "points: see the DXF file"});
-        } else {
-          for (std::size_t k = 0; k < found.size(); ++k) {
-            const std::string label = std::to_string(i + 1) + "." + std::to_string(++count);
-            number_at(label, found[k].at, outwards(found, k));
-            table.rows.push_back({label, length_text(found[k].at.x()), length_text(found[k].at.y()),
-                                  found[k].radius_mm > 0 ? "R" + length_text(found[k].radius_mm) : ""});
+      CornerTable table(*this, i);
+      for (const Polygon& polygon : feature.voids_mm) table.contour(polygon.outer);
+      if (!feature.wall_face_mm.empty()) {
+        table.face(feature.wall_face_mm);
+      } else {
+        for (const ObstacleShape& obstacle : feature.obstacles) {
+          if (obstacle.radius_mm > 0) {
+            table.disc({obstacle.area.outer.front(), obstacle.radius_mm});
+          } else {
+            table.contour(obstacle.area.outer);
           }
         }
       }
-      tables_.push_back(std::move(table));
+      tables_.push_back(std::move(table.table));
     }
   }
 
-  // Away from the void at a corner, on paper.
+  // Away from the void or the obstacle at a corner, on paper.
   static Point outwards(const std::vector<Corner>& corners, std::size_t k) {
     const std::size_t n = corners.size();
     const Point in = (corners[k].at - corners[(k + n - 1) % n].at).normalized();
@@ -368,12 +423,13 @@ class Sheet {
     for (const PlacedFeature& feature : drawing_.features) {
       double low = feature.voids_mm.empty() ? 0 : outline_.width_mm;
       for (const Polygon& polygon : feature.voids_mm) low = std::min(low, bounding_box(polygon.outer).min.y());
+      if (!feature.obstacles.empty()) low = 0;
       add(feature.start_mm, low);
       if (feature.end_mm > feature.start_mm) add(feature.end_mm, low);
     }
     std::sort(list.begin(), list.end(), [](const Ordinate& a, const Ordinate& b) { return a.x < b.x; });
     spread(list);
-    const double y = page_y(0), knee = y + kWall_mm + 3, foot = knee + 6;
+    const double y = page_y(0), knee = y + wall_ + 3, foot = knee + 6;
     for (const Ordinate& ordinate : list) {
       const double x = page_x(ordinate.x);
       canvas_.path({{x, page_y(ordinate.low)}, {x, knee}, {ordinate.paper, foot - 1}, {ordinate.paper, foot}}, false,
@@ -382,7 +438,7 @@ class Sheet {
                    {kText_mm, Anchor::End, ordinate.x == 0, true, true});
     }
     canvas_.text({page_x(outline_.x_min) - 22, foot + 6}, "x from the datum", {2.5, Anchor::Start, false, false, true});
-    bottom_ = y + kOrdinates_mm;
+    bottom_ = y + kOrdinates_mm + wall_ - kWall_mm;
   }
 
   // Positions at least kApart from each other and as near to their x as that allows: neighbours that collide share
@@ -436,6 +492,7 @@ class Sheet {
     const bool bladed = std::any_of(
         drawing_.features.begin(), drawing_.features.end(),
         [](const PlacedFeature& feature) { return feature.type == "wiper" || feature.type == "hold-down"; });
+    if (!outline_.fences.empty() || !outline_.pins.empty()) legend.push_back({"fixed", "stands on the track"});
     if (bladed) legend.push_back({"rail", "blade or rail above the track, at its height"});
     const double foot = draw_legend(canvas_, legend, {kFrame_mm + 5, bottom_ + 2});
     bottom_ = draw_title_block(canvas_, drawing_.title, notes, {width_ - kFrame_mm, bottom_ + 2}, foot);
@@ -448,6 +505,8 @@ class Sheet {
   std::vector<Table> tables_;
   double label_rows_ = 0;
   double width_ = 0, left_ = 0, top_ = 0, bottom_ = 0;  // of the sheet; bottom_: how far down it is drawn
+  double above_ = 0;                                    // what obstacles have beyond the free edge
+  double wall_ = 0;                                     // how far down the wall is drawn
 };
 
 }  // namespace

@@ -1,10 +1,11 @@
 // The chosen design: what it scores, what to mind, its drawing, poses, travel, numbers and how to reproduce it.
 
-import { animation } from './animation.js';
 import { h } from './dom.js';
 import { fixed, kWeak_mm, measure, mm, short, whole, withUnit } from './format.js';
+import { poseTravel } from './pose_travel.js';
 import { poseCards } from './poses.js';
 import { featureTable, trackDrawing } from './track_drawing.js';
+import { turningSection } from './turning.js';
 
 const kFigures = [
   'efficiency',
@@ -33,7 +34,8 @@ export function chosenDesign(report, state, section) {
     const part = report.parts[design.part];
     const { environment, manufacture } = report.problem;
     const cards = poseCards(design, part, environment.track_width_mm, state);
-    const travel = h('div', { id: 'travel' });
+    const turning = design.turning ? turningSection(design, part, environment.track_width_mm) : null;
+    const travel = turning ? null : h('div', { id: 'travel' });
     section.replaceChildren(
       heading(report, design),
       figures(design),
@@ -43,6 +45,7 @@ export function chosenDesign(report, state, section) {
         'p',
         { class: 'small' },
         'To scale, dimensions in mm. Cut what is white; hatched is the wall, its face is y = 0. ',
+        turning ? 'What is dark stands on the track. ' : '',
         links(design),
       ),
       trackDrawing(design, environment.track_width_mm),
@@ -51,11 +54,12 @@ export function chosenDesign(report, state, section) {
       h(
         'p',
         { class: 'small' },
-        'Each at the instant that decides it, all to one scale; the wall is below, parts move to the right. Choose one to see its travel.',
+        turning
+          ? 'Each as it arrives, all to one scale; the wall is below, parts move to the right. Choose one to see its path.'
+          : 'Each at the instant that decides it, all to one scale; the wall is below, parts move to the right. Choose one to see its travel.',
       ),
       cards.node,
-      h('h3', { id: 'travel-title' }, 'Its travel over the track'),
-      travel,
+      ...(turning ? [turning.node] : [h('h3', { id: 'travel-title' }, 'Its travel over the track'), travel]),
       h(
         'div',
         { class: 'columns' },
@@ -66,8 +70,14 @@ export function chosenDesign(report, state, section) {
     cards.mark();
     section.refreshPose = () => {
       cards.mark();
+      if (turning) {
+        running = turning;
+        const pose = design.poses[state.get('pose')];
+        turning.select(pose?.aspect, pose?.orientation_deg ?? 0);
+        return;
+      }
       running?.pause();
-      running = design.poses.length ? animation(design, state.get('pose'), part, environment) : null;
+      running = design.poses.length ? poseTravel(design, state.get('pose'), part, environment) : null;
       travel.replaceChildren(
         running?.node ?? h('p', { class: 'empty' }, 'The part rests in no pose, so nothing travels.'),
       );
@@ -162,6 +172,13 @@ function cautions(report, design) {
         'Outcomes are static: a part that loses its support anywhere counts as lost. Vibration, hopping and speed are not simulated; ',
         'predictions within 0.3 to 0.5 mm of critical mean little under vibration.',
       ),
+      design.turning
+        ? h(
+            'li',
+            null,
+            'How parts turn is computed for one part alone that moves slowly, held back by the track: speed, bouncing and parts that push each other are not simulated.',
+          )
+        : null,
       h(
         'li',
         null,

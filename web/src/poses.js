@@ -3,13 +3,18 @@
 import { h, s } from './dom.js';
 import { degrees, fixed, mm, outcome, percent, poseName } from './format.js';
 import { boxOf, loopsOf, pathOf } from './geometry.js';
+import { outlineOf } from './path.js';
 import { drawCentre, drawPart, drawTrack, makeView } from './scene.js';
 import { supportAt } from './travel.js';
 
 const kAside_mm = 3;
 
-// Where a pose is shown at rest: the deciding instant, or the middle of the track.
-export function restingPlace(result, design) {
+// Where a pose is shown at rest: the deciding instant, or the middle of the track; before all that may turn it.
+export function restingPlace(result, design, pose) {
+  if (design.turning) {
+    const starts = design.track.map((f) => f.start_mm);
+    return Math.min(boxOf(design.turning.obstacles.map(outlineOf)).xMin, ...starts) - pose.x_max_mm - 1;
+  }
   if (result.decided_by) return result.decided_by.x_mm;
   const xs = design.track.flatMap((f) => [f.start_mm, f.end_mm]);
   return xs.length ? (Math.min(...xs) + Math.max(...xs)) / 2 : 0;
@@ -69,9 +74,20 @@ function card(result, index, design, pose, width, size, state) {
         result.may_catch ? h('span', { class: 'flag' }, '\u26a0 nose may catch') : null,
         result.marginal ? h('span', { class: 'flag' }, '\u26a0 marginal') : null,
       ),
-      h('span', { class: 'line' }, `arrives ${percent(result.prior)}`),
-      h('span', { class: 'line' }, marginWords(result)),
-      h('span', { class: 'line small' }, decidedWords(result, design)),
+      h(
+        'span',
+        { class: 'line' },
+        `arrives ${percent(result.prior)}`,
+        design.turning && (result.exit_orientation_deg ?? null) !== null
+          ? `, leaves at ${degrees(result.exit_orientation_deg)}`
+          : '',
+      ),
+      design.turning && result.margin_mm === null ? null : h('span', { class: 'line' }, marginWords(result)),
+      h(
+        'span',
+        { class: 'line small' },
+        design.turning && !result.decided_by ? result.reason : decidedWords(result, design),
+      ),
     ),
   );
 }
@@ -79,7 +95,7 @@ function card(result, index, design, pose, width, size, state) {
 function thumbnail(result, index, design, pose, width, size) {
   const px = 148;
   const scale = px / size.across;
-  const x = restingPlace(result, design);
+  const x = restingPlace(result, design, pose);
   const middle = x + (pose.x_min_mm + pose.x_max_mm) / 2;
   const [from, to] = [middle - size.across / 2, middle + size.across / 2];
   const view = makeView(from, size.up, scale, 0, 0);

@@ -162,7 +162,24 @@ function blade(feature, width, from, to, view) {
   ];
 }
 
-// A part at x = 0 of its own; moved by setting the transform of the answer's nodes.
+// What stands on the track: fences, wall profiles, pins.
+export function drawObstacles(obstacles, view) {
+  return s(
+    'g',
+    { class: 'obstacles' },
+    obstacles.map((o) =>
+      o.outline_mm
+        ? s('path', { d: pathOf([o.outline_mm], view.to) }, s('title', null, o.name))
+        : s(
+            'circle',
+            { cx: view.x(o.centre_mm[0]), cy: view.y(o.centre_mm[1]), r: o.radius_mm * view.scale },
+            s('title', null, o.name),
+          ),
+    ),
+  );
+}
+
+// A part at 0, 0 of its own; moved, and turned about that point, by setting the transform of the answer's nodes.
 export function drawPart(pose, view, clip) {
   const d = pathOf(loopsOf(pose.footprint), view.to);
   const upper = pose.upper.map((area) =>
@@ -174,8 +191,17 @@ export function drawPart(pose, view, clip) {
   const node = s('g', null, whole, s('g', { 'clip-path': `url(#${clip})` }, held), rim);
   return {
     node,
-    move: (x) => [whole, held, rim].forEach((n) => n.setAttribute('transform', `translate(${x * view.scale},0)`)),
+    move(x, y = 0, deg = 0) {
+      const to = placedBy(view, x, y, deg);
+      [whole, held, rim].forEach((n) => n.setAttribute('transform', to));
+    },
   };
+}
+
+// The transform of what is drawn at 0, 0.
+export function placedBy(view, x, y, deg) {
+  const turn = deg ? ` rotate(${(-deg).toFixed(4)},${view.x(0)},${view.y(0)})` : '';
+  return `translate(${x * view.scale},${-y * view.scale})${turn}`;
 }
 
 // The centre of mass as engineers draw it; the supported point as a cross where the two differ.

@@ -4,7 +4,7 @@ import { h, onWidth, s } from './dom.js';
 import { across, chain, chainAbove } from './dimensions.js';
 import { fixed, short } from './format.js';
 import { boxOf } from './geometry.js';
-import { dimensionOf, drawTrack, isBlade, makeView, openings, scaleBar } from './scene.js';
+import { dimensionOf, drawObstacles, drawTrack, isBlade, makeView, openings, scaleBar } from './scene.js';
 
 const kSame_mm = 5e-3;
 const kMostLabelled = 12; // corners of a cut-out that are numbered
@@ -15,7 +15,7 @@ const number = (v) => fixed(v, 2);
 
 // Corners of a cut-out as designed, in the track's coordinates; of other features none.
 export function cornersOf(feature, start) {
-  return (feature.polygon_mm ?? []).map(([x, y]) => [x + start, y]);
+  return (feature.polygon_mm ?? feature.profile_mm ?? []).map(([x, y]) => [x + start, y]);
 }
 
 function extentOf(feature) {
@@ -62,6 +62,7 @@ function picture(design, width, px) {
     'aria-label': `Track of design ${design.id} seen from above, to scale, dimensions in mm`,
   });
   svg.append(drawTrack(design.track, width, from, to, view).group);
+  if (design.turning) svg.append(drawObstacles(design.turning.obstacles, view));
   svg.append(across(0, width, view, view.x(from) - (heights.length ? 54 : 16), number(width), -1));
   svg.append(...ordinates(heights, from, view));
   design.track.forEach((feature, i) => {
@@ -240,7 +241,7 @@ export function featureTable(design, width, cutter) {
           h('th', { scope: 'col' }, 'Feature'),
           h('th', { scope: 'col', class: 'num' }, 'from x (mm)'),
           h('th', { scope: 'col', class: 'num' }, 'to x (mm)'),
-          h('th', { scope: 'col' }, 'what is cut (mm)'),
+          h('th', { scope: 'col' }, design.turning ? 'what is cut or stands (mm)' : 'what is cut (mm)'),
         ),
       ),
       h('tbody', null, rows),

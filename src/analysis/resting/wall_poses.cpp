@@ -154,6 +154,7 @@ std::vector<WallPose> wall_poses(const Loop& points, double friction, const Wall
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const double upper = i + 1 < bounds.size() ? bounds[i + 1] : bounds.front() + kTurn;
     poses[i].basin_rad = upper - bounds[i];
+    poses[i].basin_from_rad = wrapped(bounds[i]);
   }
   return poses;
 }

@@ -12,6 +12,7 @@ struct WallPose {
   double com_wall_mm = 0;      // height of the centre of mass over the wall
   double basin_rad = 0;        // width of the range of orientations that settle into it
   Point edge_from, edge_to;    // the resting edge, in the outline's frame, counter-clockwise
+  double basin_from_rad = 0;   // where that range begins, [0, 2 pi)
 };
 
 struct WallPoseOptions {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/geometry/polygon.hpp"
+#include "analysis/contact/shapes.hpp"
 
 namespace formotion::feeder {
 
@@ -53,6 +53,20 @@ struct PlacedFeature {
   double start_mm = 0, end_mm = 0;
   std::vector<Polygon> voids_mm;                           // clipped to the strip, world frame
   std::vector<std::pair<std::string, double>> dimensions;  // literal parameters, contract names
+  std::vector<ObstacleShape> obstacles = {};               // world frame, whole
+  Loop wall_face_mm = {};                                  // of a wall profile: the face as it is drawn, x ascending
+};
+
+// Starting orientations of one outcome. The next interval of the aspect begins where this one ends, bit for bit; the
+// last one wraps.
+struct MapInterval {
+  std::string aspect;
+  double from_rad = 0, to_rad = 0;
+  Outcome outcome = Outcome::Undecided;
+  std::optional<double> exit_orientation_rad;
+  bool thin = false;      // thinner than boundaries are located
+  double sample_rad = 0;  // a start inside
+  double width_rad() const;
 };
 
 struct FeederEvaluation {
@@ -61,7 +75,8 @@ struct FeederEvaluation {
   std::vector<std::string> warnings;
   Metrics metrics;
   std::vector<PoseResult> poses;
-  int goal_pose = -1;  // index into poses; -1 where no pose is the goal
+  std::vector<MapInterval> outcome_map;  // of designs with obstacles
+  int goal_pose = -1;                    // index into poses; -1 where no pose is the goal
 };
 
 }  // namespace formotion::feeder

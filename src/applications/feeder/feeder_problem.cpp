@@ -10,6 +10,8 @@
 #include "analysis/constraints/planar_support.hpp"
 #include "analysis/geometry/boolean.hpp"
 #include "applications/feeder/pose_travel.hpp"
+#include "applications/feeder/turning.hpp"
+#include "applications/feeder/world.hpp"
 
 namespace formotion::feeder {
 namespace {
@@ -74,10 +76,7 @@ struct Expressions {
   }
   template <class V>
   static void of(Cutout& s, const V& v) {
-    for (AffinePoint& p : s.polygon_mm) {
-      v(p[0]);
-      v(p[1]);
-    }
+    loop(s.polygon_mm, v);
   }
   template <class V>
   static void of(DishOut& s, const V& v) {
@@ -99,6 +98,27 @@ struct Expressions {
   static void of(HoldDown& s, const V& v) {
     v(s.height_mm);
     v(s.length_mm);
+  }
+  template <class V>
+  static void of(Fence& s, const V& v) {
+    loop(s.polygon_mm, v);
+  }
+  template <class V>
+  static void of(WallProfile& s, const V& v) {
+    loop(s.profile_mm, v);
+  }
+  template <class V>
+  static void of(Pin& s, const V& v) {
+    v(s.x_mm);
+    v(s.y_mm);
+    v(s.diameter_mm);
+  }
+  template <class V>
+  static void loop(AffineLoop& points, const V& v) {
+    for (AffinePoint& p : points) {
+      v(p[0]);
+      v(p[1]);
+    }
   }
 };
 
@@ -137,6 +157,12 @@ bool named_by_goal(const Goal& goal, const PartModel& part, const StablePose& po
          same_orientation(pose.orientation_rad, goal.orientation_rad, part.symmetry[pose.aspect]);
 }
 
+std::string arrival_name(const PartModel& part, const TurningEvaluation& travels, std::size_t i, bool on_belt) {
+  if (!on_belt) return "pose " + pose_name(part, part.poses[i].stable);
+  const MapInterval& interval = travels.map[i];
+  return "starts " + interval.aspect + " " + degrees(interval.from_rad) + " to " + degrees(interval.to_rad) + " deg";
+}
+
 std::vector<Violation> defects_of(const PartModel& part) {
   std::vector<Violation> violations;
   for (const AspectShape& shape : part.shapes) {
@@ -167,14 +193,7 @@ struct Dimensions {
   List operator()(const Gap& f) const { return {{"length_mm", v(f.length_mm)}}; }
   List operator()(const Canyon& f) const { return band(f); }
   List operator()(const Slot& f) const { return band(f); }
-  List operator()(const Cutout& f) const {
-    List list;
-    for (std::size_t i = 0; i < f.polygon_mm.size(); ++i) {
-      list.emplace_back("x" + std::to_string(i) + "_mm", v(f.polygon_mm[i][0]));
-      list.emplace_back("y" + std::to_string(i) + "_mm", v(f.polygon_mm[i][1]));
-    }
-    return list;
-  }
+  List operator()(const Cutout& f) const { return corners(f.polygon_mm); }
   List operator()(const DishOut& f) const { return {{"depth_mm", v(f.depth_mm)}, {"length_mm", v(f.length_mm)}}; }
   List operator()(const Scallop& f) const {
     return {{"depth_mm", v(f.depth_mm)}, {"half_angle_deg", v(f.half_angle_rad) * 180 / std::numbers::pi}};
@@ -182,6 +201,19 @@ struct Dimensions {
   List operator()(const Drawing&) const { return {}; }
   List operator()(const Wiper& f) const { return {{"height_mm", v(f.height_mm)}}; }
   List operator()(const HoldDown& f) const { return {{"height_mm", v(f.height_mm)}, {"length_mm", v(f.length_mm)}}; }
+  List operator()(const Fence& f) const { return corners(f.polygon_mm); }
+  List operator()(const WallProfile& f) const { return corners(f.profile_mm); }
+  List operator()(const Pin& f) const {
+    return {{"x_mm", v(f.x_mm)}, {"y_mm", v(f.y_mm)}, {"diameter_mm", v(f.diameter_mm)}};
+  }
+  static List corners(const AffineLoop& loop) {
+    List list;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      list.emplace_back("x" + std::to_string(i) + "_mm", v(loop[i][0]));
+      list.emplace_back("y" + std::to_string(i) + "_mm", v(loop[i][1]));
+    }
+    return list;
+  }
   template <class Band>
   static List band(const Band& f) {
     return {{"from_mm", v(f.from_mm)}, {"to_mm", v(f.to_mm)}, {"length_mm", v(f.length_mm)}};
@@ -241,21 +273,32 @@ FeederProblem::Model::Judged FeederProblem::Model::judge(int topology, std::span
       check_webs(layout, *spec.manufacture.min_web_mm, spec.environment.track_width_mm, result.violations);
 
     const bool detail = in_detail || spec.goal.require_tip;
-    const std::vector<PoseTravel> travels = travel_all(model, layout, spec.environment, detail);
-    judged.work = static_cast<std::int64_t>(travels.size()) * std::max<std::int64_t>(1, result.metrics.feature_count);
-    for (const PoseTravel& travel : travels) result.poses.push_back(travel.result);
+    const bool turns = has_obstacles(layout);
+    TurningEvaluation travels;
+    if (turns) {
+      travels = travel_all_turning(model, layout, spec.environment, detail);
+      judged.work = travels.projections;
+      result.outcome_map = travels.map;
+    } else {
+      travels.poses = travel_all(model, layout, spec.environment, detail);
+      travels.arrivals = travels.poses;
+      judged.work =
+          static_cast<std::int64_t>(travels.poses.size()) * std::max<std::int64_t>(1, result.metrics.feature_count);
+    }
+    for (const PoseTravel& travel : travels.poses) result.poses.push_back(travel.result);
+    const std::vector<PoseTravel>& arrivals = travels.arrivals;
 
-    // The goal: named poses, or the one that fits best. The cost of a goal is what keeps it from being met, in mm.
-    const std::size_t count = travels.size();
+    // The goal: named poses, or the one that is delivered most. The cost of a goal is what keeps it from being met, in
+    // mm.
+    const std::size_t count = model.poses.size();
     std::vector<bool> is_goal(count, false);
     if (spec.goal.one_pose) {
-      double best_prior = 0;
-      for (std::size_t i = 0; i < count; ++i) {
-        if (travels[i].result.outcome == Outcome::Delivered && travels[i].result.prior > best_prior) {
-          best_prior = travels[i].result.prior;
-          result.goal_pose = static_cast<int>(i);
-        }
+      std::vector<double> leaving(count, 0);
+      for (const PoseTravel& arrival : arrivals) {
+        if (arrival.exit_pose >= 0) leaving[arrival.exit_pose] += arrival.result.prior;
       }
+      const auto most = std::max_element(leaving.begin(), leaving.end());
+      if (most != leaving.end() && *most > 0) result.goal_pose = static_cast<int>(most - leaving.begin());
       if (result.goal_pose >= 0) is_goal[result.goal_pose] = true;
     } else {
       for (std::size_t i = 0; i < count; ++i) {
@@ -263,20 +306,17 @@ FeederProblem::Model::Judged FeederProblem::Model::judge(int topology, std::span
         if (is_goal[i] && result.goal_pose < 0) result.goal_pose = static_cast<int>(i);
       }
     }
+    const auto serves = [&](const PoseTravel& arrival) { return arrival.exit_pose >= 0 && is_goal[arrival.exit_pose]; };
 
     Metrics& metrics = result.metrics;
     double delivered_prior = 0, pitch = 0, arriving = 0;
-    std::vector<bool> delivered(count);
-    std::vector<double> nominal(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      const PoseResult& pose = travels[i].result;
-      delivered[i] = pose.outcome == Outcome::Delivered;
-      nominal[i] = travels[i].nominal_mm;
+    for (const PoseTravel& arrival : arrivals) {
+      const PoseResult& pose = arrival.result;
       arriving += pose.prior;
-      pitch += pose.prior * (model.poses[i].x_max - model.poses[i].x_min);
-      if (delivered[i]) {
+      pitch += pose.prior * arrival.extent_mm;
+      if (pose.outcome == Outcome::Delivered) {
         delivered_prior += pose.prior;
-        if (is_goal[i]) metrics.efficiency += pose.prior;
+        if (serves(arrival)) metrics.efficiency += pose.prior;
       } else if (pose.outcome == Outcome::Jammed) {
         metrics.jam_probability += pose.prior;
       }
@@ -286,35 +326,52 @@ FeederProblem::Model::Judged FeederProblem::Model::judge(int topology, std::span
     if (pitch > 0)
       metrics.feed_rate_per_min = 60 * spec.environment.conveying_speed_mm_s * metrics.efficiency * arriving / pitch;
 
-    // What is wrong, in words and in mm; the sum falls as a design comes nearer to a feasible one.
+    // What is wrong, in words and in mm; the sum falls as a design comes nearer to a feasible one. Where parts turn, mm
+    // say nothing of how near that is: the probability of what ends wrong does.
     double lost_goal = -1;  // how deep the least lost goal pose is lost
-    for (std::size_t i = 0; i < count; ++i) {
-      const PoseResult& pose = travels[i].result;
-      const double by = std::max(1e-6, std::abs(nominal[i]));
+    for (std::size_t i = 0; i < arrivals.size(); ++i) {
+      const PoseTravel& arrival = arrivals[i];
+      const PoseResult& pose = arrival.result;
+      const bool delivered = pose.outcome == Outcome::Delivered;
+      const double by = turns ? std::max(1e-6, pose.prior) : std::max(1e-6, std::abs(arrival.nominal_mm));
       const auto violate = [&](const char* what, double amount) {  // words cost more than the score
-        const std::string where = in_detail ? "pose " + pose_name(model, model.poses[i].stable) : std::string();
+        const std::string where =
+            !in_detail ? std::string() : arrival_name(model, travels, i, is_belt(spec.environment) && turns);
         result.violations.push_back({in_detail ? what : "", where, amount});
       };
-      if (delivered[i] && !is_goal[i]) violate("a wrong pose is delivered", by);
-      if (!delivered[i] && (is_goal[i] || spec.goal.one_pose)) lost_goal = lost_goal < 0 ? by : std::min(lost_goal, by);
-      if (pose.outcome == Outcome::Jammed) violate("a pose jams", std::max(1e-3, travels[i].lacking_mm));
+      if (delivered && !serves(arrival)) violate("a wrong pose is delivered", by);
+      if (!delivered && (turns || spec.goal.one_pose || is_goal[i]))
+        lost_goal = lost_goal < 0 ? by : std::min(lost_goal, by);
+      if (pose.outcome == Outcome::Jammed) violate("a pose jams", turns ? by : std::max(1e-3, arrival.lacking_mm));
+      if (pose.outcome == Outcome::Ambiguous) violate("a pose has several consistent ends", by);
       if (pose.outcome == Outcome::Undecided) violate("a pose is undecided", 1);
-      if (spec.goal.require_tip && !delivered[i] && pose.unsupported_mm && pose.tip_mm &&
+      if (spec.goal.require_tip && !delivered && pose.unsupported_mm && pose.tip_mm &&
           *pose.unsupported_mm < *pose.tip_mm) {
         violate("a lost pose has no time to tip", *pose.tip_mm - *pose.unsupported_mm);
       }
     }
     if (metrics.efficiency <= 0)
-      result.violations.push_back({"the goal pose is not delivered", "goal", std::max(lost_goal, 1e-6)});
+      result.violations.push_back({"the goal pose is not delivered", "goal", turns ? 1 : std::max(lost_goal, 1e-6)});
     for (const Violation& violation : result.violations) judged.violation += violation.by;
     if (count == 0) result.violations.push_back({"the part rests in no pose on the wall", "part", 1});
     result.feasible = result.violations.empty();
-    if (in_detail) collect_warnings(travels, layout, spec.environment, result.warnings);
+    if (in_detail) collect_warnings(travels.poses, layout, spec.environment, result.warnings);
 
     // Invalid shapes have no tolerance; for the score's sake infeasible designs need none.
     const bool wanted = in_detail || std::any_of(spec.objectives.begin(), spec.objectives.end(),
                                                  [](const Objective& o) { return o.name == "tolerance_mm"; });
-    if (wanted && count > 0 && layout.invalid.empty() && (in_detail || result.feasible)) {
+    if (!wanted || count == 0 || !layout.invalid.empty() || !(in_detail || result.feasible)) return judged;
+    if (turns) {
+      const TurningTolerance found = turning_tolerance(model, layout, spec.environment, travels);
+      metrics.tolerance_mm = found.tolerance_mm;
+      judged.work += found.projections;
+    } else {
+      std::vector<bool> delivered(count);
+      std::vector<double> nominal(count);
+      for (std::size_t i = 0; i < count; ++i) {
+        delivered[i] = arrivals[i].result.outcome == Outcome::Delivered;
+        nominal[i] = arrivals[i].nominal_mm;
+      }
       const ToleranceResult found = tolerance(model, layout, delivered, nominal);
       metrics.tolerance_mm = found.tolerance_mm;
       judged.work += found.sweeps;
@@ -381,6 +438,8 @@ std::vector<PlacedFeature> FeederProblem::place(int topology, std::span<const do
   for (std::size_t i = 0; i < layout.features.size(); ++i) {
     const LaidFeature& laid = layout.features[i];
     PlacedFeature feature{laid.type, laid.start_mm, laid.end_mm, {}, std::visit(Dimensions{}, literal[i].shape)};
+    feature.obstacles = laid.obstacles;
+    feature.wall_face_mm = laid.wall_face_mm;
     if (!laid.voids.empty()) {
       feature.voids_mm =
           intersection(laid.voids, {rectangle(laid.x_min - 1, 0, laid.x_max + 1, spec.environment.track_width_mm)});
@@ -429,6 +488,17 @@ SupportAnswer FeederProblem::support(int topology, std::span<const double> value
     const Point supported(q.x_mm, q.y_mm - wall_shift(shape->com_height_mm, spec.environment));
     const std::optional<double> margin = support_margin(placed_part, track, supported);
     return SupportAnswer{margin && *margin >= kLost_mm, margin};
+  });
+}
+
+World FeederProblem::world(int topology, std::span<const double> values, const std::string& aspect) const {
+  const FeederSpec& spec = model_->spec;
+  return model_->with_part(values, [&](const PartModel& part) {
+    const auto shape =
+        std::find_if(part.shapes.begin(), part.shapes.end(), [&](const AspectShape& s) { return s.name == aspect; });
+    if (shape == part.shapes.end()) throw std::logic_error("no aspect " + aspect);
+    const Layout layout = lay_out(spec.designs[topology], spec.environment, spec.manufacture, part.diameter_mm, values);
+    return *world_of(*shape, layout, spec.environment, part.diameter_mm);  // what is not shrunk does not vanish
   });
 }
 

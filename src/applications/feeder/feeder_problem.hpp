@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "analysis/contact/configuration.hpp"
 #include "applications/feeder/evaluation.hpp"
 #include "applications/feeder/spec.hpp"
 #include "problem/problem.hpp"
@@ -27,12 +28,10 @@ struct StablePose {
   double orientation_rad = 0;  // from the outline as written, [0, 2 pi)
   double com_wall_mm = 0;      // distance of the centre of mass from the wall
   double prior = 0;
+  double basin_from_rad = 0, basin_rad = 0;  // orientations that settle into it; of all its symmetric copies together
 };
 
-// A configuration: the position of the centre of mass and the rotation from the outline as written.
-struct Configuration {
-  double x_mm = 0, y_mm = 0, theta_rad = 0;
-};
+struct World;  // applications/feeder/world.hpp
 
 struct SupportAnswer {
   bool supported = false;
@@ -65,6 +64,8 @@ class FeederProblem final : public Problem {
   std::vector<StablePose> stable_poses(std::span<const double> values) const;  // in the order of evaluation.poses
   SupportAnswer support(int topology, std::span<const double> values, const std::string& aspect,
                         const Configuration& q) const;
+  // An aspect among the design's obstacles.
+  World world(int topology, std::span<const double> values, const std::string& aspect) const;
   // The specification's features with literal numbers.
   DesignSpec literal_design(int topology, std::span<const double> values) const;
 

@@ -66,6 +66,8 @@ int common_order(const AspectShape& shape) {
   return std::max(order, 1);
 }
 
+}  // namespace
+
 PoseModel pose_model(const AspectShape& shape, const StablePose& stable, const Environment& environment) {
   PoseModel pose;
   pose.stable = stable;
@@ -83,8 +85,6 @@ PoseModel pose_model(const AspectShape& shape, const StablePose& stable, const E
                                        environment.track_width_mm);
   return pose;
 }
-
-}  // namespace
 
 bool PoseModel::footprint_reaches(double y_mm) const { return bounding_box(footprint.outer).max.y() > y_mm; }
 
@@ -127,8 +127,12 @@ PartModel part_model(const PartSpec& part, const Environment& environment, std::
     model.symmetry.push_back(common_order(shape));
     for (const WallPose& pose :
          merged_by_symmetry(wall_poses(corners, environment.settling_friction), model.symmetry.back())) {
-      const StablePose stable{aspect, pose.orientation_rad, pose.com_wall_mm,
-                              shape.probability * pose.basin_rad / (2 * std::numbers::pi)};
+      const StablePose stable{aspect,
+                              pose.orientation_rad,
+                              pose.com_wall_mm,
+                              shape.probability * pose.basin_rad / (2 * std::numbers::pi),
+                              pose.basin_from_rad,
+                              pose.basin_rad};
       model.poses.push_back(pose_model(shape, stable, environment));
       model.longest_mm = std::max(model.longest_mm, model.poses.back().x_max - model.poses.back().x_min);
     }

@@ -33,6 +33,9 @@ std::vector<AspectShape> aspect_shapes(const PartSpec& part, std::span<const dou
 // Poses by aspect, then by orientation; their priors sum to 1 (where every aspect can rest).
 PartModel part_model(const PartSpec& part, const Environment& environment, std::span<const double> values);
 
+// The part in some orientation, its centre of mass at x = 0 and com_wall_mm over the wall, at rest or not.
+PoseModel pose_model(const AspectShape& shape, const StablePose& stable, const Environment& environment);
+
 // How far the supported point lies nearer to the wall than the centre of mass.
 double wall_shift(double com_height_mm, const Environment& environment);
 

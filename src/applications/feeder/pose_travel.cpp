@@ -127,8 +127,6 @@ class Judge {
     const int blade = first_blade(pose);
     const double blade_x = blade < 0 ? kInfinity : layout_.features[blade].start_mm - pose.x_max;
     const double clearance = blade_clearance(pose, layout_);
-    const double gone_x = std::min(lost_group < 0 ? kInfinity : first.x_mm, blade_x);
-    if (const int obstacle = first_obstacle(pose, gone_x); obstacle >= 0) return meets_obstacle(obstacle, travel);
     if (lost_group < 0 && blade < 0) {
       result.outcome = Outcome::Delivered;
       result.exit_orientation_rad = result.orientation_rad;
@@ -174,26 +172,6 @@ class Judge {
       if (first < 0 || feature.start_mm < layout_.features[first].start_mm) first = i;
     }
     return first;
-  }
-
-  // The feature whose obstacle stands in the pose's way before it is gone; -1 if none does.
-  int first_obstacle(const PoseModel& pose, double gone_x) const {
-    double top = 0;
-    for (const Polygon& body : pose.bodies) top = std::max(top, bounding_box(body.outer).max.y());
-    for (int i = 0; i < static_cast<int>(layout_.features.size()); ++i) {
-      for (const Loop& obstacle : layout_.features[i].obstacles) {
-        const Box box = bounding_box(obstacle);
-        if (box.max.y() > 0 && box.min.y() < top && box.min.x() - pose.x_max < gone_x) return i;
-      }
-    }
-    return -1;
-  }
-
-  // It would turn, or stop: not for this model to say.
-  PoseTravel meets_obstacle(int feature, PoseTravel travel) const {
-    travel.result.outcome = Outcome::Undecided;
-    if (detail_) travel.result.reason = "meets an obstacle of " + named(layout_, feature) + ", which may turn it";
-    return travel;
   }
 
   // Lost before the first feature; features may make the loss deeper.
@@ -259,7 +237,14 @@ std::vector<PoseTravel> travel_all(const PartModel& part, const Layout& layout, 
   Judge judge(part, layout, environment, detail);
   std::vector<PoseTravel> travels;
   travels.reserve(part.poses.size());
-  for (const PoseModel& pose : part.poses) travels.push_back(judge(pose));
+  for (std::size_t i = 0; i < part.poses.size(); ++i) {
+    const PoseModel& pose = part.poses[i];
+    PoseTravel travel = judge(pose);
+    travel.aspect = pose.stable.aspect;
+    travel.extent_mm = pose.x_max - pose.x_min;
+    if (travel.result.outcome == Outcome::Delivered) travel.exit_pose = static_cast<int>(i);
+    travels.push_back(std::move(travel));
+  }
   return travels;
 }
 

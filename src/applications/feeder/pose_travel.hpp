@@ -16,6 +16,9 @@ struct PoseTravel {
   PoseResult result;
   double lacking_mm = 0;  // jammed: about how far it is from being rejected
   double nominal_mm = 0;  // what a tolerance can use up: margin and clearance, or the depth of the loss
+  int aspect = 0;
+  int exit_pose = -1;    // delivered: the stable pose in which it leaves
+  double extent_mm = 0;  // along the feed, as it comes
 };
 
 // detail: also unsupported travel, tipping, catching, and the sentences.

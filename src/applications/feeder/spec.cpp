@@ -3,8 +3,8 @@
 namespace formotion::feeder {
 
 std::string type_name(const FeatureSpec& feature) {
-  static constexpr const char* kNames[] = {"balcony",  "gap",     "canyon",  "slot",  "cutout",
-                                           "dish-out", "scallop", "drawing", "wiper", "hold-down"};
+  static constexpr const char* kNames[] = {"balcony", "gap",   "canyon",    "slot",  "cutout", "dish-out", "scallop",
+                                           "drawing", "wiper", "hold-down", "fence", "wall",   "pin"};
   static_assert(std::size(kNames) == std::variant_size_v<decltype(FeatureSpec::shape)>);
   return kNames[feature.shape.index()];
 }

@@ -47,6 +47,9 @@ struct Environment {
   std::optional<double> spacing_mm;             // default: the part's diameter
   std::optional<double> radius_of_gyration_mm;  // default: the area's
   double settling_friction = 0;
+  // Height of the centre of mass over the wall where parts come in without a pull to the wall; default: the track's
+  // middle.
+  std::optional<double> start_y_mm;
 };
 
 struct Balcony {
@@ -80,9 +83,20 @@ struct Wiper {
 struct HoldDown {
   Affine height_mm, length_mm;
 };
+struct Fence {
+  AffineLoop polygon_mm;
+};
+// Replaces the wall's face from its first corner's x to its last one's; what lies below 0 is a recess.
+struct WallProfile {
+  AffineLoop profile_mm;  // an open polyline
+};
+struct Pin {
+  Affine x_mm, y_mm, diameter_mm;
+};
 
 struct FeatureSpec {
-  std::variant<Balcony, Gap, Canyon, Slot, Cutout, DishOut, Scallop, Drawing, Wiper, HoldDown> shape;
+  std::variant<Balcony, Gap, Canyon, Slot, Cutout, DishOut, Scallop, Drawing, Wiper, HoldDown, Fence, WallProfile, Pin>
+      shape;
   std::optional<Affine> at_mm;
 };
 using DesignSpec = std::vector<FeatureSpec>;

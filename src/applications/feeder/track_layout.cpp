@@ -17,11 +17,30 @@ double step_for_chord(double radius) {
   return 2 * std::acos(std::max(0.0, 1 - kChord_mm / std::max(radius, kChord_mm)));
 }
 
+// How far profiles, and cuts of the wall for them, go on below the lowest point of a face: nothing reaches down there.
+constexpr double kBelow_mm = 100;
+
 struct Raw {
   std::vector<Loop> voids;
   double length = 0;
-  std::vector<Loop> obstacles = {};
+  std::vector<ObstacleShape> obstacles = {};
+  std::vector<Interval> wall_cuts = {};
+  Loop wall_face = {};
 };
+
+// The stretches, overlapping ones joined, ascending.
+std::vector<Interval> joined(std::vector<Interval> stretches) {
+  std::sort(stretches.begin(), stretches.end(), [](const Interval& a, const Interval& b) { return a.from < b.from; });
+  std::vector<Interval> result;
+  for (const Interval& stretch : stretches) {
+    if (!result.empty() && stretch.from <= result.back().to) {
+      result.back().to = std::max(result.back().to, stretch.to);
+    } else {
+      result.push_back(stretch);
+    }
+  }
+  return result;
+}
 
 // Builds a feature's voids from its own start; reports impossible values as violations.
 class Builder {
@@ -88,9 +107,51 @@ class Builder {
       raw.length = std::max(raw.length, bounding_box(loop).max.x());
     }
     for (const Loop& loop : f.walls_mm) {
-      raw.obstacles.push_back(loop);
+      raw.obstacles.push_back({normalised({loop, {}})});
       raw.length = std::max(raw.length, bounding_box(loop).max.x());
     }
+    return raw;
+  }
+
+  Raw operator()(const Fence& f) {
+    const Loop drawn = evaluated(f.polygon_mm, values_);
+    Polygon polygon = normalised({drawn, {}});
+    const double end = bounding_box(drawn).max.x();
+    if (const auto found = defect(polygon)) return invalid(*found, 1, end);
+    return {{}, end, {{std::move(polygon)}}};
+  }
+
+  Raw operator()(const Pin& f) {
+    const double radius = at_least_zero("diameter_mm", f.diameter_mm) / 2;
+    const Point centre(f.x_mm(values_), f.y_mm(values_));
+    const double end = centre.x() + radius;
+    if (radius <= 0) return invalid("diameter_mm not above 0", 1e-3, end);
+    return {{}, end, {{{{centre}, {}}, radius}}};
+  }
+
+  Raw operator()(const WallProfile& f) {
+    Raw raw;
+    raw.wall_face = evaluated(f.profile_mm, values_);
+    const double from = raw.wall_face.front().x(), to = raw.wall_face.back().x();
+    raw.length = to;
+    if (const auto found = profile_defect(raw.wall_face)) {
+      invalid_.push_back({*found, where_, std::max(1e-3, from - to)});
+      raw.wall_face.clear();
+      return raw;
+    }
+    // The body goes deeper than the wall's cut, so that no hollow is between them when it is made smaller.
+    const Box box = bounding_box(raw.wall_face);
+    const double below = std::min(0.0, box.min.y()) - kBelow_mm;
+    Loop body = raw.wall_face;
+    body.emplace_back(to, below - kBelow_mm);
+    body.emplace_back(from, below - kBelow_mm);
+    raw.obstacles.push_back({normalised({body, {}})});
+    // The wall stays under what stands on it: a body that is made smaller leaves no slit there.
+    for (const Polygon& hollow : difference({rectangle(from, below, to, 0)}, {raw.obstacles[0].area.outer})) {
+      const Box of_hollow = bounding_box(hollow.outer);
+      raw.wall_cuts.push_back({of_hollow.min.x(), of_hollow.max.x()});
+    }
+    raw.wall_cuts = joined(std::move(raw.wall_cuts));
     return raw;
   }
 
@@ -147,6 +208,18 @@ void set_extent(LaidFeature& feature) {
   feature.x_max = box.max.x();
 }
 
+void place_obstacles(Raw& raw, LaidFeature& feature) {
+  feature.obstacles = std::move(raw.obstacles);
+  for (ObstacleShape& obstacle : feature.obstacles) {
+    for (Point& p : obstacle.area.outer) p.x() += feature.start_mm;
+  }
+  for (const Interval& cut : raw.wall_cuts) {
+    feature.wall_cuts.push_back({cut.from + feature.start_mm, cut.to + feature.start_mm});
+  }
+  feature.wall_face_mm = std::move(raw.wall_face);
+  for (Point& p : feature.wall_face_mm) p.x() += feature.start_mm;
+}
+
 bool boxes_overlap(const std::vector<Loop>& loops) {
   std::vector<Box> boxes;
   for (const Loop& loop : loops) {
@@ -160,6 +233,21 @@ bool boxes_overlap(const std::vector<Loop>& loops) {
 }
 
 }  // namespace
+
+std::optional<std::string> profile_defect(const Loop& face) {
+  if (face.size() < 2) return "a profile of fewer than two corners";
+  const double from = face.front().x(), to = face.back().x();
+  if (from >= to) return "a profile whose first corner is not before its last";
+  for (const Point& p : face) {
+    if (p.x() < from || p.x() > to) return "a profile that leaves the stretch between its first and its last corner";
+  }
+  const double below = std::min(0.0, bounding_box(face).min.y()) - 1;
+  Loop body = face;
+  body.emplace_back(to, below);
+  body.emplace_back(from, below);
+  if (const auto found = defect(normalised({body, {}}))) return "with the wall below, " + *found;
+  return std::nullopt;
+}
 
 Layout lay_out(const DesignSpec& design, const Environment& environment, const Manufacture& manufacture,
                double part_diameter_mm, std::span<const double> values) {
@@ -178,10 +266,7 @@ Layout lay_out(const DesignSpec& design, const Environment& environment, const M
     any_free = any_free || !spec.at_mm;
     feature.end_mm = feature.start_mm + raw.length;
     feature.voids = std::move(raw.voids);
-    feature.obstacles = std::move(raw.obstacles);
-    for (Loop& loop : feature.obstacles) {
-      for (Point& p : loop) p.x() += feature.start_mm;
-    }
+    place_obstacles(raw, feature);
     if (manufacture.cutter_radius_mm && *manufacture.cutter_radius_mm > 0) {
       feature.voids = milled(feature.voids, *manufacture.cutter_radius_mm, where, layout.invalid);
     }
@@ -226,6 +311,47 @@ std::vector<VoidGroup> grouped(const Layout& layout, double reach_mm) {
     if (boxes_overlap(group.loops)) group.loops = loops_of(united(group.loops));
   }
   return groups;
+}
+
+std::vector<ObstacleShape> obstacle_shapes(const Layout& layout, double far_mm) {
+  std::vector<ObstacleShape> shapes(1);
+  std::vector<Interval> cuts;
+  double lowest = 0;
+  for (const LaidFeature& feature : layout.features) {
+    cuts.insert(cuts.end(), feature.wall_cuts.begin(), feature.wall_cuts.end());
+    for (const Point& p : feature.wall_face_mm) lowest = std::min(lowest, p.y());
+    shapes.insert(shapes.end(), feature.obstacles.begin(), feature.obstacles.end());
+  }
+  cuts = joined(std::move(cuts));
+  if (!cuts.empty()) far_mm = std::max({far_mm, 1 - cuts.front().from, cuts.back().to + 1});
+  // One piece below all cuts, so that it is one component: its face with the cuts in it, from right to left.
+  const double deep = lowest - 3 * kBelow_mm;
+  Loop& wall = shapes[0].area.outer;
+  wall = {{-far_mm, deep}, {far_mm, deep}, {far_mm, 0}};
+  for (auto cut = cuts.rbegin(); cut != cuts.rend(); ++cut) {
+    const double bottom = lowest - kBelow_mm;
+    wall.insert(wall.end(), {{cut->to, 0}, {cut->to, bottom}, {cut->from, bottom}, {cut->from, 0}});
+  }
+  wall.emplace_back(-far_mm, 0);
+  shapes[0].is_datum = true;
+  return shapes;
+}
+
+int feature_of(const Layout& layout, int component) {
+  int first = 1;
+  for (std::size_t i = 0; i < layout.features.size(); ++i) {
+    const int count = static_cast<int>(layout.features[i].obstacles.size());
+    if (component >= first && component < first + count) return static_cast<int>(i);
+    first += count;
+  }
+  return -1;
+}
+
+std::string obstacle_name(const Layout& layout, int component) {
+  const int feature = feature_of(layout, component);
+  return feature < 0 ? "the wall"
+                     : "feature " + std::to_string(feature) + " (" +
+                           layout.features[static_cast<std::size_t>(feature)].type + ")";
 }
 
 }  // namespace formotion::feeder

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "analysis/constraints/support_travel.hpp"
+#include "analysis/contact/shapes.hpp"
 #include "applications/feeder/evaluation.hpp"
 #include "applications/feeder/spec.hpp"
 
@@ -13,10 +15,12 @@ namespace formotion::feeder {
 struct LaidFeature {
   std::string type;
   double start_mm = 0, end_mm = 0;
-  std::vector<Loop> voids;         // counter-clockwise; features that are open to the free edge go on beyond it
-  double x_min = 0, x_max = 0;     // of the voids
-  std::vector<Loop> obstacles;     // what stands on the track
-  std::optional<double> blade_mm;  // wiper, hold-down: height over the track
+  std::vector<Loop> voids;               // counter-clockwise; features that are open to the free edge go on beyond it
+  double x_min = 0, x_max = 0;           // of the voids
+  std::vector<ObstacleShape> obstacles;  // what stands on the track or in place of the wall
+  std::vector<Interval> wall_cuts;       // where the wall is taken away: a profile lies below it
+  Loop wall_face_mm;                     // of a wall profile: the face, from its first corner to its last
+  std::optional<double> blade_mm;        // wiper, hold-down: height over the track
   bool holds_down = false;
 };
 
@@ -32,8 +36,17 @@ struct VoidGroup {
   std::vector<Loop> loops;    // disjoint, the void to the left
 };
 
+// Why a polyline is no face of a wall, in words; none if it is one.
+std::optional<std::string> profile_defect(const Loop& face);
+
 Layout lay_out(const DesignSpec& design, const Environment& environment, const Manufacture& manufacture,
                double part_diameter_mm, std::span<const double> values);
 std::vector<VoidGroup> grouped(const Layout& layout, double reach_mm);
+
+// Everything that a part can touch, in the world's frame: component 0 is the wall, from x = -far_mm to far_mm and
+// without what profiles take away; then come the features' obstacles, in the design's order.
+std::vector<ObstacleShape> obstacle_shapes(const Layout& layout, double far_mm);
+int feature_of(const Layout& layout, int component);             // the feature's number; -1 for the wall
+std::string obstacle_name(const Layout& layout, int component);  // "the wall", "feature 0 (fence)"
 
 }  // namespace formotion::feeder
