@@ -111,6 +111,7 @@ Json violations_json(const std::vector<Violation>& violations) {
   return json;
 }
 
+// Neighbours share their ends bit for bit: equal numbers are written equal.
 Json outcome_map_json(const std::vector<MapInterval>& map) {
   Json json = Json::array();
   for (const MapInterval& interval : map) {

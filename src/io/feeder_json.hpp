@@ -17,6 +17,7 @@ OrderedJson evaluation_json(const feeder::FeederProblem& problem, int topology, 
 OrderedJson metrics_json(const feeder::Metrics& metrics);
 OrderedJson violations_json(const std::vector<feeder::Violation>& violations);
 OrderedJson pose_json(const feeder::PoseResult& pose);
+OrderedJson outcome_map_json(const std::vector<feeder::MapInterval>& map);
 // The values of the variables that a topology uses, by name; values are of all the problem's variables.
 OrderedJson values_json(const feeder::FeederProblem& problem, int topology, std::span<const double> values);
 // A design with literal numbers, as `features` of a design file.

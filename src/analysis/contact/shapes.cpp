@@ -167,8 +167,8 @@ std::optional<Obstacles> make_obstacles(const std::vector<ObstacleShape>& shapes
           {shapes[k].area.outer.front(), radius, {-std::numbers::pi, 2 * std::numbers::pi}, {k, 0}, {}, {}});
       continue;
     }
-    polygons.push_back(shapes[k].area);
-    const std::vector<Loop> own = loops_of(shapes[k].area);
+    polygons.push_back(normalised(shapes[k].area));  // the union takes loops as they wind
+    const std::vector<Loop> own = loops_of(polygons.back());
     loops.insert(loops.end(), own.begin(), own.end());
   }
   // Drawn apart from each other they need no union; drawn together their hidden corners must go.

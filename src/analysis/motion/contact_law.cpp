@@ -52,7 +52,7 @@ double sliding_speed(const ContactPoint& contact, const Twist& twist) {
   return turned_left(contact.normal).dot(twist.linear + twist.angular * turned_left(contact.lever));
 }
 double speed(const Twist& twist, double length_mm) {
-  return std::hypot(twist.linear.x(), twist.linear.y(), twist.angular * length_mm);
+  return std::sqrt(twist.linear.squaredNorm() + twist.angular * length_mm * twist.angular * length_mm);
 }
 
 std::optional<Motion> motion_of_modes(std::span<const ContactPoint> contacts, std::span<const ContactMode> modes,

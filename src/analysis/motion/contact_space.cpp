@@ -11,8 +11,9 @@ bool overlap(const Box& a, const Box& b) {
 }
 
 int end_of(const std::vector<int>& begin, const std::vector<int>& end, int edge, const ContactState& state) {
-  if (state.along_mm <= kContact_mm) return begin[edge];
-  if (state.along_mm >= state.extent_mm - kContact_mm) return end[edge];
+  // Contacts that have run off an edge stand beyond its end by up to the contact slack.
+  if (state.along_mm <= 3 * kContact_mm) return begin[edge];
+  if (state.along_mm >= state.extent_mm - 3 * kContact_mm) return end[edge];
   return -1;
 }
 

@@ -17,7 +17,8 @@ constexpr double kReserve = 2e-9;         // modes hold until their reserve is b
 constexpr double kChordError_mm = 1e-5;   // of a cubic that stands for a gap when its root is bracketed
 constexpr double kLongestChord_mm = 0.3;  // steps that bend more are shortened
 constexpr double kStepError_mm = 1e-9;    // of integration
-constexpr double kSamePath_mm = 1e-9;     // after the look-ahead
+constexpr double kSamePath_mm = 1e-9;     // between places where guided translations end
+constexpr double kSameWay = 1e-7;         // between directions of motion, of unit speed
 constexpr double kSlow = 1e-7;            // of the drive: forces that are out of balance by less leave the part at rest
 constexpr double kShortest = 1e-12;       // steps
 
@@ -32,6 +33,21 @@ double root(const F& f, double a, double b, double fa, double fb) {
   std::uintmax_t most = 60;
   const auto close = [](double low, double high) { return high - low <= 1e-15 + 4e-16 * std::abs(high); };
   return boost::math::tools::toms748_solve(f, a, b, fa, fb, close, most).second;
+}
+
+// The root of a falling function whose slope is known: Newton's method inside a bracket that halves where it fails.
+template <class F>
+double steep_root(const F& f, double low, double high, double f_low, double f_high) {
+  double x = low + (high - low) * f_low / (f_low - f_high);
+  for (int i = 0; i < 80; ++i) {
+    const auto [value, slope] = f(x);
+    (value >= 0 ? low : high) = x;
+    double next = x - value / slope;
+    if (!(next > low && next < high)) next = low + (high - low) / 2;
+    if (std::abs(next - x) <= 1e-15 + 4e-16 * std::abs(x) || !(next > low && next < high)) break;
+    x = next;
+  }
+  return x;
 }
 
 struct Candidate {
@@ -158,13 +174,15 @@ class Follower {
       // Those that lead the same way are one: the one with the most in reserve.
       std::stable_sort(candidates.begin(), candidates.end(),
                        [](const Candidate& a, const Candidate& b) { return a.reserve > b.reserve; });
-      std::vector<Configuration> ways;
+      std::vector<Twist> ways;  // of unit speed: flows go by different parameters
       for (Candidate& candidate : candidates) {
-        const bool known = std::any_of(ways.begin(), ways.end(), [&](const Configuration& way) {
-          return chord(candidate.ahead, way, space_.part.gyration_mm) <= kSamePath_mm;
+        const double fast = speed(candidate.twist, law_.length_mm);
+        const Twist way{candidate.twist.linear / fast, candidate.twist.angular / fast};
+        const bool known = std::any_of(ways.begin(), ways.end(), [&](const Twist& other) {
+          return speed({way.linear - other.linear, way.angular - other.angular}, law_.length_mm) <= kSameWay;
         });
         if (known) continue;
-        ways.push_back(candidate.ahead);
+        ways.push_back(way);
         flows.push_back(std::move(candidate.flow));
       }
       if (flows.size() == 1 && !result.may_rest) return flows;
@@ -474,8 +492,14 @@ class Follower {
     if (falls && p.gap < floor) return kInfinity;  // below already, and out of reach
     if (falls) {
       const double target = p.gap > 0 ? 0 : floor;
-      const auto gap = [&](double h) { return gap_at(index, flow.at(h)) - target; };
-      const double at = p.gap_end - target >= 0 ? p.to : root(gap, p.from, p.to, p.gap - target, p.gap_end - target);
+      if (p.gap_end >= target) return closes(flow, index, flow.at(p.to)) ? p.to : kInfinity;
+      const auto gap_and_rate = [&](double h) {
+        const Configuration q = flow.at(h);
+        ContactState state;
+        const double gap = gap_at(index, q, &state);
+        return std::pair{gap - target, separation_speed(point_of(state), flow.tangent(q))};
+      };
+      const double at = steep_root(gap_and_rate, p.from, p.to, p.gap - target, p.gap_end - target);
       return closes(flow, index, flow.at(at)) ? at : kInfinity;
     }
     if (depth > 40) return p.gap_end < floor && closes(flow, index, flow.at(p.to)) ? p.to : kInfinity;
