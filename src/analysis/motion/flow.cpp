@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
+#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -14,7 +15,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLongestTurn_rad = 0.3;
 constexpr double kNoTurning = 1e-10;  // of the speed: slower turning is none
-constexpr double kParallel = 1e-10;   // sine between normals
+constexpr double kSingular = 1e-12;   // of two contacts' normals
+constexpr double kTurnsBack = 0.3;    // cosine between a curve's direction at a step's start and end
 
 double slide_sign(ContactMode mode) { return mode == ContactMode::SlideLeft ? 1 : -1; }
 
@@ -131,6 +133,24 @@ Configuration Flow::at(double h, double& error) const {
   return integrates_ ? integrated(h, &error) : at(h);
 }
 
+void Flow::settle() {
+  const double gyration = space_->part.gyration_mm;
+  for (int i = 0; i < 2 && pairs_.size() == 1; ++i) start_ = put_back(start_);
+  if (pairs_.size() != 2) return;
+  for (int i = 0; i < 3; ++i) {  // the least displacement that closes both gaps
+    const ContactState a = state(0, start_), b = state(1, start_);
+    Eigen::Matrix<double, 2, 3> rows;
+    rows.row(0) = a.gradient().transpose();
+    rows.row(1) = b.gradient().transpose();
+    rows.col(2) /= gyration;
+    const Eigen::Matrix2d square = rows * rows.transpose();
+    if (square.determinant() < kSingular) return;
+    const Eigen::Vector3d by = -rows.transpose() * (square.inverse() * Eigen::Vector2d(a.gap_mm, b.gap_mm));
+    if (!(by.norm() < 10 * kContact_mm)) return;
+    start_ = {start_.x_mm + by[0], start_.y_mm + by[1], start_.theta_rad + by[2] / gyration};
+  }
+}
+
 void Flow::restart(const Configuration& q, double h) {
   start_ = q;
   if (kind_ == MotionKind::Curve) {
@@ -227,7 +247,11 @@ Configuration Flow::along_curve(double h) const {
     way -= correction;
     if (correction.norm() < 1e-13 * (1 + std::abs(h))) break;
   }
-  return moved(way);
+  const Configuration q = moved(way);
+  // Beyond where the curve turns back there is no such place, or another branch's: not a number.
+  const bool on_curve = std::max(std::abs(state(0, q).gap_mm), std::abs(state(1, q).gap_mm)) < 1e-9;
+  if (!on_curve || curve_direction(q).dot(curve_start_) < kTurnsBack) return {NAN, NAN, NAN};
+  return q;
 }
 
 Configuration Flow::put_back(Configuration q) const {
@@ -261,7 +285,7 @@ double Flow::force_reserve(const Configuration& q) const {
   std::vector<ContactPoint> contacts;
   for (std::size_t i = 0; i < pairs_.size(); ++i) contacts.push_back(point_of(state(i, q)));
   const std::optional<Motion> motion = motion_of_modes(contacts, modes_, law_of(drive_, space_->part));
-  if (!motion) return -kInfinity;
+  if (!motion) return -1;  // the contacts have come together
   double least = kInfinity;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const ContactForce& force = motion->forces[i];
@@ -285,6 +309,7 @@ double Flow::force_reserve(const Configuration& q) const {
 }
 
 double Flow::reserve(const Configuration& q) const {
+  if (!std::isfinite(q.x_mm)) return -1;
   double least = force_reserve(q);
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     const ContactState contact = state(i, q);

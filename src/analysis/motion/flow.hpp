@@ -43,6 +43,9 @@ class Flow {
   double longest_step() const;
   // The same with the step's error (mm); 0 where at() is exact.
   Configuration at(double h, double& error) const;
+  // Puts the start exactly on its contacts (it is found to within the contact slack): paths that run into the same
+  // contacts become the same.
+  void settle();
   // Goes on from q, which is at(h).
   void restart(const Configuration& q, double h);
 

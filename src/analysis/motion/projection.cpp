@@ -30,8 +30,8 @@ double chord(const Configuration& a, const Configuration& b, double reach) {
 template <class F>
 double root(const F& f, double a, double b, double fa, double fb) {
   if (fa == 0) return a;
-  std::uintmax_t most = 60;
-  const auto close = [](double low, double high) { return high - low <= 1e-15 + 4e-16 * std::abs(high); };
+  std::uintmax_t most = 200;
+  const auto close = [](double low, double high) { return high - low <= 1e-13 * (1 + std::abs(high)); };
   return boost::math::tools::toms748_solve(f, a, b, fa, fb, close, most).second;
 }
 
@@ -93,6 +93,8 @@ class Follower {
         if (flows.empty() || result.end == ProjectionEnd::Ambiguous) return;
         flow = std::move(flows.front());
       }
+      flow->settle();
+      q = flow->start();
       remember(*flow, result.history);
       if (options_.keep_path) result.legs.push_back(leg_of(*flow, q, event));
       const bool translates = flow->longest_step() == kInfinity;
@@ -319,7 +321,13 @@ class Follower {
       first = at;
       event = kTouches;
     }
-    // A change of modes or the end of a feature.
+    for (const ContactPair& pair : flow.pairs()) {
+      const double until = leaves_edge(pair, q, t, c, s);
+      if (until >= first) continue;
+      first = until;
+      event = kChanges;
+    }
+    // A change of modes.
     if (!flow.pairs().empty()) {
       const auto left = [&](double h) { return flow.reserve(flow.at(h)) + kReserve; };
       const double at_end = left(first);
@@ -353,6 +361,17 @@ class Follower {
 
   static bool carries(const Flow& flow, const ContactPair& pair) {
     return std::find(flow.pairs().begin(), flow.pairs().end(), pair) != flow.pairs().end();
+  }
+
+  // How far a guided translation goes until the contact is at the end of its edge.
+  double leaves_edge(const ContactPair& pair, const Configuration& q, const Twist& t, double c, double s) const {
+    if (pair.kind == ContactKind::CornerOnCorner) return kInfinity;  // does not translate
+    const ContactState state = contact_state(space_.part, space_.obstacles, pair, q.position(), c, s);
+    const double rate = pair.kind == ContactKind::CornerOnEdge
+                            ? space_.obstacles.edges[pair.fixed].along.dot(t.linear)
+                            : -rotated(space_.part.edges[pair.moving].along, c, s).dot(t.linear);
+    if (rate > 0) return std::max(0.0, (state.extent_mm - state.along_mm) / rate);
+    return rate < 0 ? std::max(0.0, state.along_mm / -rate) : kInfinity;
   }
 
   double meets_round(const ContactPair& pair, const Configuration& q, const Twist& t, double c, double s,
