@@ -8,6 +8,7 @@
 #include "applications/feeder/travel_picture.hpp"
 #include "io/feeder_json.hpp"
 #include "report/knee.hpp"
+#include "report/turning_data.hpp"
 
 namespace formotion {
 namespace {
@@ -17,6 +18,8 @@ using namespace feeder;
 
 // Numbers of generators in one page, about 8 bytes each; designs beyond have no animated hull.
 constexpr std::size_t kMostTravelNumbers = 400000;
+// Designs in one page with their configuration space, some 100 kB each; the page says so of the others.
+constexpr int kMostSpaces = 6;
 
 Json mm(double value) { return std::isfinite(value) ? Json(std::round(value * 1e4) / 1e4 + 0.0) : Json(nullptr); }
 Json mm(const std::optional<double>& value) { return value ? mm(*value) : Json(nullptr); }
@@ -228,7 +231,14 @@ class DesignWriter {
     json["features"] = features_json(problem_.literal_design(topology, values));
     json["track"] = track_json(problem_.place(topology, values));
     json["part"] = part(values, pictures);
-    json["travel"] = travels(pictures);
+    // Where parts turn the poses' own travel is not what happens.
+    if (const auto picture = turning_picture(problem_, topology, values, spaces_ < kMostSpaces)) {
+      spaces_ += picture->spaces.empty() ? 0 : 1;
+      json["travel"] = nullptr;
+      json["turning"] = turning_json(problem_, *picture);
+    } else {
+      json["travel"] = travels(pictures);
+    }
     json["commands"] = commands_json(file_, design_id(design));
     return json;
   }
@@ -249,6 +259,7 @@ class DesignWriter {
   const FeederProblem& problem_;
   Json parts_ = Json::array();
   std::size_t travel_numbers_ = 0;
+  int spaces_ = 0;
 };
 
 Json knee_json(const FeederProblem& problem, const RunSummary& run) {

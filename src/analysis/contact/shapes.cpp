@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "analysis/geometry/boolean.hpp"
+#include "analysis/geometry/offset.hpp"
 
 namespace formotion {
 namespace {
@@ -123,7 +124,7 @@ bool add_boundary(Obstacles& obstacles, const Loop& loop, const Source& source, 
   }
   for (int i = 0; i < count; ++i) {
     const double length = edges[i].along.dot(end[i] - begin[i]);
-    if (length <= 0 && grow_mm < 0) return false;
+    if (length <= 0 && grow_mm != 0) return false;
     obstacles.edges.push_back(
         {begin[i], end[i], edges[i].along, edges[i].normal, std::max(0.0, length), edges[i].name});
     moved.push_back(begin[i]);
@@ -155,6 +156,35 @@ MovingShape MovingShape::of(const std::vector<Polygon>& bodies, double gyration_
   return shape;
 }
 
+namespace {
+
+// Grown one by one, with tangents for arcs: where growing closes a notch, edges are not just moved.
+std::optional<Obstacles> grown_apart(const std::vector<ObstacleShape>& shapes, double grow_mm) {
+  std::vector<ObstacleShape> grown;
+  for (const ObstacleShape& shape : shapes) {
+    if (shape.is_datum || shape.radius_mm > 0) {
+      grown.push_back(shape);
+      if (!shape.is_datum) grown.back().radius_mm += grow_mm;
+      continue;
+    }
+    for (const Polygon& area : united(offset(loops_of(normalised(shape.area)), grow_mm))) grown.push_back({area, 0});
+  }
+  return make_obstacles(grown, 0);
+}
+
+bool boxes_meet(const std::vector<Polygon>& polygons) {
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    const Box a = bounding_box(polygons[i].outer);
+    for (std::size_t j = 0; j < i; ++j) {
+      const Box b = bounding_box(polygons[j].outer);
+      if ((a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all()) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
 std::optional<Obstacles> make_obstacles(const std::vector<ObstacleShape>& shapes, double grow_mm) {
   Obstacles obstacles;
   std::vector<Loop> loops;
@@ -172,15 +202,16 @@ std::optional<Obstacles> make_obstacles(const std::vector<ObstacleShape>& shapes
     loops.insert(loops.end(), own.begin(), own.end());
   }
   // Drawn apart from each other they need no union; drawn together their hidden corners must go.
-  if (polygons.size() > 1) polygons = united(loops);
+  if (boxes_meet(polygons)) polygons = united(loops);
   const Source source{shapes};
   for (const Polygon& polygon : polygons) {
     const Polygon clean = normalised(polygon);
     Polygon area;
-    if (!add_boundary(obstacles, clean.outer, source, grow_mm, area.outer)) return std::nullopt;
+    const auto failed = [&] { return grow_mm > 0 ? grown_apart(shapes, grow_mm) : std::nullopt; };
+    if (!add_boundary(obstacles, clean.outer, source, grow_mm, area.outer)) return failed();
     for (const Loop& hole : clean.holes) {
       area.holes.emplace_back();
-      if (!add_boundary(obstacles, hole, source, grow_mm, area.holes.back())) return std::nullopt;
+      if (!add_boundary(obstacles, hole, source, grow_mm, area.holes.back())) return failed();
     }
     obstacles.areas.push_back(std::move(area));
   }

@@ -80,7 +80,8 @@ struct Obstacles {
 
 // The union of the shapes, grown (grow_mm > 0) or shrunk (< 0) but for data. Grown convex corners are round, exactly;
 // inner corners, and all corners of shrunk shapes, stay sharp (a shrunk shape is thus never too small).
-// None where shrinking makes an edge vanish: the shapes are thinner than that.
+// Where growing makes an edge vanish (a notch closes), shapes are grown one by one and arcs become tangents
+// (offset.hpp); edges then have no names. None where shrinking makes an edge vanish: the shapes are thinner than that.
 std::optional<Obstacles> make_obstacles(const std::vector<ObstacleShape>& shapes, double grow_mm = 0);
 
 }  // namespace formotion

@@ -250,7 +250,8 @@ Configuration Flow::along_curve(double h) const {
   const Configuration q = moved(way);
   // Beyond where the curve turns back there is no such place, or another branch's: not a number.
   const bool on_curve = std::max(std::abs(state(0, q).gap_mm), std::abs(state(1, q).gap_mm)) < 1e-9;
-  if (!on_curve || curve_direction(q).dot(curve_start_) < kTurnsBack) return {NAN, NAN, NAN};
+  const double forward = curve_direction(q).dot(curve_start_) * curve_direction(start_).dot(curve_start_);
+  if (!on_curve || forward < kTurnsBack) return {NAN, NAN, NAN};
   return q;
 }
 

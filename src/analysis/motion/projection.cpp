@@ -11,10 +11,11 @@ namespace formotion {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kOverlap_mm = 1e-8;      // gaps below minus this are contacts that have been missed
-constexpr double kForever_mm = 9e3;       // translations longer than this meet nothing more
-constexpr double kReserve = 2e-9;         // modes hold until their reserve is below minus this
-constexpr double kChordError_mm = 1e-5;   // of a cubic that stands for a gap when its root is bracketed
+constexpr double kOverlap_mm = 1e-8;     // gaps below minus this are contacts that have been missed
+constexpr double kForever_mm = 9e3;      // translations longer than this meet nothing more
+constexpr double kReserve = 2e-9;        // modes hold until their reserve is below minus this
+constexpr double kChordError_mm = 1e-5;  // of a cubic that stands for a gap that begins flat
+constexpr double kFlat_mm = 1e-9;
 constexpr double kLongestChord_mm = 0.3;  // steps that bend more are shortened
 constexpr double kStepError_mm = 1e-9;    // of integration
 constexpr double kSamePath_mm = 1e-9;     // between places where guided translations end
@@ -31,7 +32,8 @@ template <class F>
 double root(const F& f, double a, double b, double fa, double fb) {
   if (fa == 0) return a;
   std::uintmax_t most = 200;
-  const auto close = [](double low, double high) { return high - low <= 1e-13 * (1 + std::abs(high)); };
+  // Relative to the bracket: a slide goes far within angles of 1e-12 where its force passes by the centre of mass.
+  const auto close = [width = b - a](double low, double high) { return high - low <= 1e-13 * width; };
   return boost::math::tools::toms748_solve(f, a, b, fa, fb, close, most).second;
 }
 
@@ -316,7 +318,9 @@ class Follower {
       const double rate = state.normal.dot(t.linear);
       if (rate >= -1e-12 || state.gap_mm < -kContact_mm) continue;
       const double at = std::max(0.0, state.gap_mm) / -rate;
-      if (at >= first || (at == 0 && state.gap_mm <= kContact_mm)) continue;
+      if (at >= first) continue;
+      // What touched at the start was looked at when this motion was chosen.
+      if (state.gap_mm <= kContact_mm && (at == 0 || can_touch(space_, i, state, q.theta_rad))) continue;
       if (!closes(flow, i, flow.at(at))) continue;
       first = at;
       event = kTouches;
@@ -485,7 +489,9 @@ class Follower {
                         separation_speed(point_of(a), step.rate),
                         b.gap_mm,
                         separation_speed(point_of(b), step.rate_end),
-                        2 * step.chord_mm};
+                        2 * step.chord_mm,
+                        q,
+                        end};
       const double floor = (std::abs(a.gap_mm) <= kContact_mm ? std::min(0.0, a.gap_mm) : 0) - kOverlap_mm;
       first = std::min(first, crossing(flow, i, piece, floor, 0));
     }
@@ -495,22 +501,52 @@ class Follower {
   struct Piece {
     double from, to, gap, rate, gap_end, rate_end;
     double chord_mm;  // bound of the gap's distance from its cubic in the middle
+    Configuration start, end;
   };
+  static constexpr double kPathOverChord = 1.5;  // paths that bend one way, by less than a right angle: below sqrt 2
+  static constexpr double kSharpTurn = 0.2;      // rad: the direction from a pin's centre to a corner, on one piece
+
+  // Whether the contact would lie beyond the same end of its edge all the while: it moves along it by no more than its
+  // point moves.
+  bool out_of_reach(std::size_t index, const Piece& p) const {
+    const ContactPair& pair = space_.pairs[index];
+    if (pair.kind == ContactKind::CornerOnCorner) return false;
+    ContactState a, b;
+    gap_at(index, p.start, &a);
+    gap_at(index, p.end, &b);
+    const double arm = std::max(a.lever.norm(), b.lever.norm());
+    const double moves = kPathOverChord * chord(p.start, p.end, arm) + p.chord_mm;
+    const double sum = a.along_mm + b.along_mm;
+    return (sum + moves) / 2 < -kContact_mm || (sum - moves) / 2 > a.extent_mm + kContact_mm;
+  }
 
   // Where the gap falls through the floor on this piece of the flow, with the features in reach of each other.
   double crossing(const Flow& flow, std::size_t index, const Piece& p, double floor, int depth) const {
+    // The distance to a round corner's centre is no cubic unless the corner turns little about it; but it changes by no
+    // more than the corner moves.
+    bool divide = false;
+    if (const ContactPair& pair = space_.pairs[index]; pair.kind == ContactKind::CornerOnCorner) {
+      const double moves = kPathOverChord * chord(p.start, p.end, space_.part.corners[pair.moving].at.norm());
+      if ((p.gap + p.gap_end - moves) / 2 - p.chord_mm >= floor) return kInfinity;
+      const double radius = space_.obstacles.corners[pair.fixed].radius_mm;
+      divide = moves > kSharpTurn * (radius + std::min(p.gap, p.gap_end)) && depth <= 40;
+    }
     // The cubic's Bernstein coefficients of degree 4 bound it; what it misses the flow by, with its rate, is nothing at
     // the ends, so about a multiple of t^2 (1 - t)^2: the middle coefficient alone feels it, by 16 / 6.
     const double third = (p.to - p.from) / 3;
     const double b1 = p.gap + third * p.rate, b2 = p.gap_end - third * p.rate_end;
     const double c1 = (p.gap + 3 * b1) / 4, c2 = (b1 + b2) / 2, c3 = (3 * b2 + p.gap_end) / 4;
     const double off = 16.0 / 6 * p.chord_mm;
-    if (std::min({p.gap, c1, c2 - off, c3, p.gap_end}) >= floor) return kInfinity;
-    if (std::max({p.gap, c1, c2 + off, c3, p.gap_end}) < floor) return kInfinity;
-    const bool falls = p.chord_mm <= kChordError_mm && p.gap >= b1 && b1 >= b2 && b2 >= p.gap_end;
+    if (!divide && std::min({p.gap, c1, c2 - off, c3, p.gap_end}) >= floor) return kInfinity;
+    if (!divide && std::max({p.gap, c1, c2 + off, c3, p.gap_end}) < floor) return kInfinity;
+    if (out_of_reach(index, p)) return kInfinity;
+    // The cubic's slope is bounded by its coefficients' differences; what it misses has slopes of about 3 chords at
+    // most.
+    const double rises = std::max({b1 - p.gap, b2 - b1, p.gap_end - b2});
+    const bool falls = !divide && (rises <= -1.1 * p.chord_mm || (rises <= kFlat_mm && p.chord_mm <= kChordError_mm));
     if (falls && p.gap < floor) return kInfinity;  // below already, and out of reach
     if (falls) {
-      const double target = p.gap > 0 ? 0 : floor;
+      const double target = p.gap > kContact_mm ? 0 : floor;
       if (p.gap_end >= target) return closes(flow, index, flow.at(p.to)) ? p.to : kInfinity;
       const auto gap_and_rate = [&](double h) {
         const Configuration q = flow.at(h);
@@ -528,10 +564,11 @@ class Follower {
     gap_at(index, q, &state);
     const double rate = separation_speed(point_of(state), flow.tangent(q));
     const double found =
-        crossing(flow, index, {p.from, middle, p.gap, p.rate, state.gap_mm, rate, p.chord_mm / 16}, floor, depth + 1);
+        crossing(flow, index, {p.from, middle, p.gap, p.rate, state.gap_mm, rate, p.chord_mm / 16, p.start, q}, floor,
+                 depth + 1);
     if (found < kInfinity) return found;
-    return crossing(flow, index, {middle, p.to, state.gap_mm, rate, p.gap_end, p.rate_end, p.chord_mm / 16}, floor,
-                    depth + 1);
+    return crossing(flow, index, {middle, p.to, state.gap_mm, rate, p.gap_end, p.rate_end, p.chord_mm / 16, q, p.end},
+                    floor, depth + 1);
   }
 
   Leg leg_of(const Flow& flow, const Configuration& q, const std::string& event) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <map>
 #include <numbers>
 #include <sstream>
 #include <stdexcept>
@@ -148,13 +149,14 @@ std::vector<Topology> topologies_of(const FeederSpec& spec) {
   return topologies;
 }
 
-bool same_orientation(double a, double b, int order) {
-  return std::abs(std::remainder(a - b, 2 * std::numbers::pi / order)) <= kSamePose_rad;
+bool named_by_goal(const Goal& goal, const PartModel& part, int aspect, double orientation_rad, double within_rad) {
+  const double period = 2 * std::numbers::pi / part.symmetry[aspect];
+  return (goal.aspect == "any" || goal.aspect == part.shapes[aspect].name) &&
+         std::abs(std::remainder(orientation_rad - goal.orientation_rad, period)) <= within_rad;
 }
 
 bool named_by_goal(const Goal& goal, const PartModel& part, const StablePose& pose) {
-  return (goal.aspect == "any" || goal.aspect == part.shapes[pose.aspect].name) &&
-         same_orientation(pose.orientation_rad, goal.orientation_rad, part.symmetry[pose.aspect]);
+  return named_by_goal(goal, part, pose.aspect, pose.orientation_rad, kSamePose_rad);
 }
 
 std::string arrival_name(const PartModel& part, const TurningEvaluation& travels, std::size_t i, bool on_belt) {
@@ -291,14 +293,21 @@ FeederProblem::Model::Judged FeederProblem::Model::judge(int topology, std::span
     // The goal: named poses, or the one that is delivered most. The cost of a goal is what keeps it from being met, in
     // mm.
     const std::size_t count = model.poses.size();
+    const bool on_belt = turns && is_belt(spec.environment);
     std::vector<bool> is_goal(count, false);
+    int most_class = -1;
     if (spec.goal.one_pose) {
-      std::vector<double> leaving(count, 0);
+      std::map<int, double> leaving;
+      double most = 0;
       for (const PoseTravel& arrival : arrivals) {
-        if (arrival.exit_pose >= 0) leaving[arrival.exit_pose] += arrival.result.prior;
+        if (arrival.exit_class < 0) continue;
+        double& probability = leaving[arrival.exit_class];
+        probability += arrival.result.prior;
+        if (probability <= most) continue;
+        most = probability;
+        most_class = arrival.exit_class;
+        result.goal_pose = arrival.exit_pose;
       }
-      const auto most = std::max_element(leaving.begin(), leaving.end());
-      if (most != leaving.end() && *most > 0) result.goal_pose = static_cast<int>(most - leaving.begin());
       if (result.goal_pose >= 0) is_goal[result.goal_pose] = true;
     } else {
       for (std::size_t i = 0; i < count; ++i) {
@@ -306,7 +315,12 @@ FeederProblem::Model::Judged FeederProblem::Model::judge(int topology, std::span
         if (is_goal[i] && result.goal_pose < 0) result.goal_pose = static_cast<int>(i);
       }
     }
-    const auto serves = [&](const PoseTravel& arrival) { return arrival.exit_pose >= 0 && is_goal[arrival.exit_pose]; };
+    const auto serves = [&](const PoseTravel& arrival) {
+      if (spec.goal.one_pose) return arrival.exit_class >= 0 && arrival.exit_class == most_class;
+      if (!on_belt) return arrival.exit_pose >= 0 && is_goal[arrival.exit_pose];
+      return arrival.exit_class >= 0 && named_by_goal(spec.goal, model, arrival.aspect,
+                                                      *arrival.result.exit_orientation_rad, spec.goal.within_rad);
+    };
 
     Metrics& metrics = result.metrics;
     double delivered_prior = 0, pitch = 0, arriving = 0;
@@ -335,8 +349,7 @@ FeederProblem::Model::Judged FeederProblem::Model::judge(int topology, std::span
       const bool delivered = pose.outcome == Outcome::Delivered;
       const double by = turns ? std::max(1e-6, pose.prior) : std::max(1e-6, std::abs(arrival.nominal_mm));
       const auto violate = [&](const char* what, double amount) {  // words cost more than the score
-        const std::string where =
-            !in_detail ? std::string() : arrival_name(model, travels, i, is_belt(spec.environment) && turns);
+        const std::string where = !in_detail ? std::string() : arrival_name(model, travels, i, on_belt);
         result.violations.push_back({in_detail ? what : "", where, amount});
       };
       if (delivered && !serves(arrival)) violate("a wrong pose is delivered", by);

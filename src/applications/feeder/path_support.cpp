@@ -65,6 +65,11 @@ double PathSupport::margin_on(const Track& track, const Configuration& q) const 
   return support_margin(part, track, {q.x_mm, q.y_mm - shift_}).value_or(-kInfinity);
 }
 
+// The whole footprint on metal.
+double PathSupport::plain_margin(double theta_rad) const {
+  return hull_margin(placed(shape_.footprint, theta_rad, {0, shift_}).outer).margin_mm;
+}
+
 // Everything between two configurations stays on plain track.
 bool PathSupport::stands_clear(const Configuration& a, const Configuration& b) const {
   Box box;
@@ -89,11 +94,19 @@ bool PathSupport::stands_clear(const Configuration& a, const Configuration& b) c
 
 std::optional<double> PathSupport::operator()(const PathStretch& stretch) {
   const Configuration a = stretch.at(0), b = stretch.at(1);
-  if (stands_clear(a, b) && plain_ >= 0) {
-    least_ = std::min(least_, plain_);
-    return std::nullopt;
+  const bool translates = a.theta_rad == b.theta_rad;
+  if (stands_clear(a, b)) {
+    const double margin = translates && shift_ != 0 ? plain_margin(a.theta_rad) : plain_;
+    if (margin >= 0) {
+      least_ = std::min(least_, margin);
+      return std::nullopt;
+    }
   }
-  if (a.theta_rad == b.theta_rad) return translate(a, b);
+  if (translates) {
+    const std::optional<double> ends = translate(a, b);
+    if (ends) losses_.back().at = stretch.at(*ends);  // bit for bit where the path will say that it stopped
+    return ends;
+  }
   return turn(stretch, 0, 1, a, b);
 }
 

@@ -58,6 +58,7 @@ class PathSupport {
   std::optional<double> turn(const PathStretch& stretch, double from, double to, const Configuration& a,
                              const Configuration& b);
   double margin_on(const Track& track, const Configuration& q) const;
+  double plain_margin(double theta_rad) const;
   bool stands_clear(const Configuration& a, const Configuration& b) const;
   int group_under(const Configuration& q) const;
   void lose(const Configuration& q, SupportLoss loss, double depth);

@@ -242,7 +242,7 @@ std::vector<PoseTravel> travel_all(const PartModel& part, const Layout& layout, 
     PoseTravel travel = judge(pose);
     travel.aspect = pose.stable.aspect;
     travel.extent_mm = pose.x_max - pose.x_min;
-    if (travel.result.outcome == Outcome::Delivered) travel.exit_pose = static_cast<int>(i);
+    if (travel.result.outcome == Outcome::Delivered) travel.exit_pose = travel.exit_class = static_cast<int>(i);
     travels.push_back(std::move(travel));
   }
   return travels;

@@ -18,6 +18,7 @@ struct PoseTravel {
   double nominal_mm = 0;  // what a tolerance can use up: margin and clearance, or the depth of the loss
   int aspect = 0;
   int exit_pose = -1;    // delivered: the stable pose in which it leaves
+  int exit_class = -1;   // arrivals that leave alike, guided by an edge, have the same; on a track the exit pose
   double extent_mm = 0;  // along the feed, as it comes
 };
 

@@ -109,6 +109,8 @@ struct Goal {
   std::string aspect;     // or this one; "any" for all aspects
   double orientation_rad = 0;
   bool require_tip = false;
+  // On a belt, where no wall presses parts flush: how far from the goal's orientation they may leave (0.01 degrees).
+  double within_rad = 1.7453292519943296e-4;
 };
 
 struct Manufacture {

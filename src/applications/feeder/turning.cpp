@@ -12,7 +12,7 @@ namespace {
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kMostTolerance_mm = 5;
 constexpr double kFirstRung_mm = 0.01;
-constexpr double kTolerancePrecision_mm = 1e-4;
+constexpr double kTolerancePrecision_mm = 1e-3;
 constexpr int kRing = 24;  // further starts on a belt that the tolerance looks at
 
 PoseTravel pose_travel_of(const StartTravel& travel, const std::string& aspect, double orientation, double prior,
@@ -120,6 +120,7 @@ void map_of_belt(const PartModel& part, const Layout& layout, TurningTrack& trac
   for (int aspect = 0; aspect < static_cast<int>(part.shapes.size()); ++aspect) {
     const AspectShape& shape = part.shapes[aspect];
     EndClasses classes(part.symmetry[aspect]);
+    const int first_class = 10000 * aspect;  // aspects never leave alike
     const OutcomeMap map = outcome_map(
         [&](double theta) {
           const StartTravel travel = track.travel_quickly(aspect, track.belt_start(theta));
@@ -137,7 +138,10 @@ void map_of_belt(const PartModel& part, const Layout& layout, TurningTrack& trac
                                           shape.probability * interval.width_rad() / kTurn, has_voids(layout));
       arrival.aspect = aspect;
       arrival.extent_mm = extent_along(shape, found.sample_rad);
-      arrival.exit_pose = travel.exit_rad && travel.settled ? exit_pose(part, aspect, *travel.exit_rad) : -1;
+      if (travel.exit_rad && travel.settled) {
+        arrival.exit_pose = exit_pose(part, aspect, *travel.exit_rad);
+        arrival.exit_class = first_class + classes.of(travel);
+      }
       evaluation.arrivals.push_back(std::move(arrival));
     }
   }
@@ -202,7 +206,8 @@ class ToleranceSearch {
       const Configuration start =
           belt ? track.belt_start(arrival.result.orientation_rad) : track.pose_start(part_.poses[i]);
       ++projections_;
-      const StartTravel travel = track.travel(arrival.aspect, start);
+      const StartTravel travel =
+          voids ? track.travel(arrival.aspect, start) : track.travel_quickly(arrival.aspect, start);
       if (!ends_alike(arrival, travel, voids && delivered ? e : 0, period)) return false;
     }
     return !belt || ring_ends_alike(track);
@@ -213,7 +218,7 @@ class ToleranceSearch {
     for (int aspect = 0; aspect < static_cast<int>(part_.shapes.size()); ++aspect) {
       for (int k = 0; k < kRing; ++k) {
         ++projections_;
-        const StartTravel travel = track.travel(aspect, track.belt_start(kTurn * k / kRing));
+        const StartTravel travel = track.travel_quickly(aspect, track.belt_start(kTurn * k / kRing));
         const double period = kTurn / part_.symmetry[aspect];
         const bool known =
             std::any_of(nominal_.arrivals.begin(), nominal_.arrivals.end(), [&](const PoseTravel& arrival) {
@@ -261,7 +266,7 @@ TurningEvaluation travel_all_turning(const PartModel& part, const Layout& layout
     result.aspect = aspect;
     result.extent_mm = pose.x_max - pose.x_min;
     if (travel.exit_rad) {
-      result.exit_pose = exit_pose(part, aspect, *travel.exit_rad);
+      result.exit_pose = result.exit_class = exit_pose(part, aspect, *travel.exit_rad);
       // The pose's own orientation, rather than a last bit beside it.
       if (result.exit_pose >= 0 && part.symmetry[aspect] == 1)
         result.result.exit_orientation_rad = part.poses[result.exit_pose].stable.orientation_rad;

@@ -21,7 +21,7 @@ TurningEvaluation travel_all_turning(const PartModel& part, const Layout& layout
 inline constexpr double kSameExit_rad = 1.7453292519943296e-4;  // 0.01 degrees
 int exit_pose(const PartModel& part, int aspect, double exit_rad);
 
-// A lower bound, to 1e-4 mm, of the e up to which all of the following end as they do without errors (delivered ones
+// A lower bound, to 1e-3 mm, of the e up to which all of the following end as they do without errors (delivered ones
 // in the same orientation and, where there are voids, with a margin of e): every arrival, past obstacles grown by e and
 // shrunk by e, each with voids grown by e (for what is delivered) and shrunk by e (for what is not). On a belt the
 // arrivals are the middles of the map's intervals, and a further ring of starts must end in no new way. Outcomes are

@@ -23,7 +23,8 @@ double wrapped(double rad) {
 
 std::string degrees(double rad) {
   std::ostringstream out;
-  out << std::fixed << std::setprecision(1) << rad * 360 / kTurn << " deg";
+  const double tenths = std::fmod(std::round(rad * 3600 / kTurn), 3600);  // not 360.0
+  out << std::fixed << std::setprecision(1) << tenths / 10 << " deg";
   return out.str();
 }
 
@@ -132,7 +133,11 @@ StartTravel TurningTrack::run(int index, const Configuration& start, const Trave
   Watch watch(*this, index);
   ProjectionOptions how;
   how.keep_path = options.keep_path;
-  how.watch = [&](const PathStretch& stretch) { return watch(stretch); };
+  how.watch = [&](const PathStretch& stretch) {
+    const std::optional<double> ends = watch(stretch);
+    if (options.seen) options.seen(stretch, ends.value_or(1));
+    return ends;
+  };
   if (quickly) how.funnels = &aspect.funnels;
   Projection path = project(aspect.space, aspect.world.drive, start, how);
   if (quickly) {  // a known funnel may end in a loss that another start has found

@@ -1,6 +1,7 @@
 // A track with obstacles, on which parts turn: forward projection of single starts, with support, voids and blades.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "analysis/motion/contact_space.hpp"
@@ -26,6 +27,8 @@ struct StartTravel {
 struct TravelOptions {
   bool keep_path = false;
   bool tell = false;  // reasons
+  // Told of every stretch and of the part of it (up to 1) that is gone along; of the ways out of ambiguities, too.
+  std::function<void(const PathStretch&, double)> seen = {};
 };
 
 // How far edges are off.
