@@ -133,11 +133,16 @@ Json evaluation_json(const FeederProblem& problem, int topology, std::span<const
   json["warnings"] = evaluation.warnings;
   json["values"] = values_json(problem, topology, values);
   json["metrics"] = metrics_json(evaluation.metrics);
-  // Without uncertainties the worst case is the nominal one; with them it is not computed yet.
+  // Without uncertainties the worst case is the nominal one; with them it is known for the intervals that are
+  // projected.
   json["worst_case"] = nullptr;
   if (!problem.spec().uncertainty.any()) {
     json["worst_case"] = json["metrics"];
     json["worst_case"]["bites"] = nullptr;
+  }
+  if (evaluation.worst_case) {
+    json["worst_case"] = metrics_json(*evaluation.worst_case);
+    json["worst_case"]["bites"] = evaluation.bites ? Json(*evaluation.bites) : Json(nullptr);
   }
   json["goal_pose"] = evaluation.goal_pose >= 0 ? Json(evaluation.goal_pose) : Json(nullptr);
   json["poses"] = Json::array();

@@ -74,7 +74,7 @@ TEST_CASE("query answers line by line, in order, and goes on after bad lines") {
           "{\"id\":5,\"type\":\"suport\",\"q\":{\"x_mm\":0,\"y_mm\":0,\"theta_deg\":0}}\n"
           "{\"id\":6,\"type\":\"support\",\"aspect\":\"left\",\"q\":{\"x_mm\":0,\"y_mm\":0,\"theta_deg\":0}}\n"
           "{\"id\":7,\"type\":\"support\",\"q\":{\"x_mm\":0,\"y_mm\":0}}\n"
-          "{\"id\":8,\"type\":\"clearance\",\"q\":{\"x_mm\":0,\"y_mm\":0,\"theta_deg\":0}}\n"
+          "{\"id\":8,\"type\":\"clearance\",\"q\":{\"x_mm\":0,\"theta_deg\":0}}\n"
           "[1]\n"
           "{\"id\":10,\"type\":\"support\",\"q\":{\"x_mm\":40,\"y_mm\":500,\"theta_deg\":90}}\n");
   CHECK(said.code == 0);

@@ -25,7 +25,10 @@ const char* const kProblem = R"({
     {"type": "scallop", "depth_mm": 7, "half_angle_deg": "a"},
     {"type": "drawing", "voids_mm": [[[0,30],[9,30],[9,45],[0,45]]], "walls_mm": []},
     {"type": "wiper", "height_mm": 4},
-    {"type": "hold-down", "height_mm": 3.5, "length_mm": 20}
+    {"type": "hold-down", "height_mm": 3.5, "length_mm": 20},
+    {"type": "fence", "polygon_mm": [[0, -1], ["w + 30", 4], [3, "w"]]},
+    {"type": "wall", "profile_mm": [[0, 0], [9, "w/3"], [12, -2.5], [15, 0]]},
+    {"type": "pin", "x_mm": "w/2", "y_mm": 17.25, "diameter_mm": 4}
   ]},
   "goal": {"deliver": "one pose"}
 })";
@@ -81,4 +84,20 @@ TEST_CASE("an evaluation has the contract's keys; without uncertainty the worst 
 
   file.feeder.uncertainty.feature_mm = 0.1;
   CHECK(evaluated_json(feeder::FeederProblem(file.feeder), 0, std::vector<double>{9, 30})["worst_case"].is_null());
+}
+
+TEST_CASE("obstacles are written with their numbers, as a problem file has them") {
+  const feeder::FeederProblem problem(parse_problem(kProblem, "p.json").feeder);
+  const OrderedJson features = features_json(problem.literal_design(0, std::vector<double>{9, 30}));
+  CHECK(features[10] == OrderedJson::parse(R"({"type": "fence", "polygon_mm": [[0.0,-1.0],[39.0,4.0],[3.0,9.0]]})"));
+  CHECK(features[11] ==
+        OrderedJson::parse(R"({"type": "wall", "profile_mm": [[0.0,0.0],[9.0,3.0],[12.0,-2.5],[15.0,0.0]]})"));
+  CHECK(features[12] == OrderedJson::parse(R"({"type": "pin", "x_mm": 4.5, "y_mm": 17.25, "diameter_mm": 4.0})"));
+}
+
+TEST_CASE("where parts come in without a pull to the wall is read, and left open where it is not said") {
+  std::string text = kProblem;
+  CHECK_FALSE(parse_problem(text, "p.json").feeder.environment.start_y_mm.has_value());
+  text.replace(text.find("\"tilt_deg\": 5"), 13, "\"start_y_mm\": 12.5");
+  CHECK(parse_problem(text, "p.json").feeder.environment.start_y_mm == 12.5);
 }

@@ -85,6 +85,44 @@ TrackDrawing example() {
   return drawing;
 }
 
+PlacedFeature fence(double start, Loop loop) {
+  for (Point& p : loop) p.x() += start;
+  PlacedFeature feature{"fence", start, bounding_box(loop).max.x(), {}, {}};
+  feature.obstacles = {{normalised({loop, {}})}};
+  return feature;
+}
+
+PlacedFeature pin(double start, const Point& centre, double diameter) {
+  PlacedFeature feature{"pin", start, start + centre.x() + diameter / 2, {}, {}};
+  feature.obstacles = {{{{centre + Point(start, 0)}, {}}, diameter / 2}};
+  return feature;
+}
+
+PlacedFeature profile(double start, Loop face) {
+  for (Point& p : face) p.x() += start;
+  PlacedFeature feature{"wall", start, face.back().x(), {}, {}};
+  feature.wall_face_mm = face;
+  face.emplace_back(face.back().x(), -200);
+  face.emplace_back(face.front().x(), -200);
+  feature.obstacles = {{normalised({face, {}})}};
+  return feature;
+}
+
+// A ramp that begins in the wall, two pins, one of which touches a fence, a step with a recess behind it, a cut-out
+// under a fence that stands out over the free edge.
+TrackDrawing guided() {
+  TrackDrawing drawing;
+  drawing.title = "guided";
+  drawing.track_width_mm = kWidth;
+  drawing.features = {fence(0, {{0, -5}, {50, -5}, {50, 12}, {37, 12}}),
+                      pin(80, {9.25, 21.5}, 6),
+                      profile(120, {{0, 0}, {20, 8}, {20, -1.5}, {35, -1.5}, {35, 0}}),
+                      cutout(200, {{0, 20}, {25, 12}, {25, 45}, {0, 45}}),
+                      fence(195, {{0, 15}, {40, 15}, {40, 52}}),
+                      pin(230, {5, 17}, 4)};
+  return drawing;
+}
+
 double area(const std::vector<Loop>& loops) {
   double sum = 0;
   for (const Loop& loop : loops) sum += std::abs(signed_area(loop));
@@ -191,6 +229,87 @@ TEST_CASE(
   CHECK(parse_dxf(track_dxf(example()), "track.dxf", options).size() == 5);
 }
 
+TEST_CASE("what stands on the track is read back from layer WALL, what is removed from VOID") {
+  const std::string dxf = track_dxf(guided());
+  const std::vector<Loop> walls = on_layer(dxf, "WALL");
+  std::vector<Loop> expected;
+  for (const PlacedFeature& feature : guided().features) {
+    for (const ObstacleShape& obstacle : feature.obstacles) {
+      if (obstacle.radius_mm > 0) {
+        Loop circle;
+        for (int i = 0; i < 720; ++i) {
+          const double angle = M_PI * i / 360;
+          circle.emplace_back(obstacle.area.outer[0] + obstacle.radius_mm * Point(std::cos(angle), std::sin(angle)));
+        }
+        expected.push_back(circle);
+      } else if (feature.type == "wall") {
+        expected.push_back({{120, 0}, {140, 0}, {140, 8}});  // the recess is the wall's
+      } else {
+        expected.push_back(obstacle.area.outer);
+      }
+    }
+  }
+  REQUIRE(walls.size() == 4);  // the second pin is one with the fence
+  const auto extra = [](const std::vector<Loop>& a, const std::vector<Loop>& b) {
+    return area(loops_of(difference(a, b)));
+  };
+  CHECK(extra(walls, loops_of(united(expected))) < 0.05);  // a circle is read as chords within 0.002 mm
+  CHECK(extra(loops_of(united(expected)), walls) < 0.05);
+  CHECK(same_corners(on_layer(dxf, "VOID"), loops_of(in_strip({{{200, 20}, {225, 12}, {225, 45}, {200, 45}}})), 1e-6));
+  std::vector<Loop> fences;  // sharp corners come back as they were
+  for (const Loop& loop : walls) {
+    if (loop.size() < 10) fences.push_back(loop);
+  }
+  CHECK(same_corners(fences, {{{0, -5}, {50, -5}, {50, 12}, {37, 12}}, {{120, 0}, {140, 0}, {140, 8}}}, 1e-6));
+}
+
+TEST_CASE("the wall's face stands on layer FACE, pins as circles with crosses, only where there are such") {
+  const std::string dxf = track_dxf(guided());
+  const std::string face = between(dxf, "POLYLINE\n8\nFACE\n", "SEQEND");
+  CHECK(between(face, "\n70\n", "\n") == "0");  // open
+  std::vector<double> xs, ys;
+  for (const std::string& vertex : all_between(face, "VERTEX\n8\nFACE\n10\n", "\n30\n")) {
+    xs.push_back(std::stod(vertex));
+    ys.push_back(std::stod(vertex.substr(vertex.find("\n20\n") + 4)));
+  }
+  const std::vector<double> x{-30, 120, 140, 140, 155, 155, 267}, y{0, 0, 8, -1.5, -1.5, 0, 0};
+  REQUIRE(xs.size() == x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    CHECK(xs[i] == Approx(x[i]).margin(1e-6));
+    CHECK(ys[i] == Approx(y[i]).margin(1e-6));
+  }
+  CHECK(all_between(dxf, "\nCIRCLE\n8\nWALL\n", "\n40\n").size() == 1);
+  CHECK(all_between(dxf, "\nLINE\n8\nCENTER\n", "\n11\n").size() == 2);
+  const std::string plain = track_dxf(example());
+  for (const char* layer : {"\n8\nWALL\n", "\n8\nFACE\n", "\n8\nCENTER\n"}) {
+    CHECK(plain.find(layer) == std::string::npos);
+  }
+}
+
+TEST_CASE("the SVG numbers the corners of obstacles and says where they are") {
+  const std::string svg = track_svg(guided());
+  const auto shown = texts(svg);
+  const std::set<std::string> words(shown.begin(), shown.end());
+  for (const char* word : {"F1 fence 50.00", "-5.00", "37.00", "12.00", "1.4", "F2 pin 12.25", "89.25", "21.50",
+                           "centre of \u00d86.00", "F3 wall 35.00", "140.00", "8.00", "155.00", "-1.50", "3.5",
+                           "235.00", "52.00", "centre of \u00d84.00", "stands on the track"}) {
+    CAPTURE(word);
+    CHECK(words.contains(word));
+  }
+  CHECK(all_between(svg, "<circle class=\"fixed\"", ">").size() == 1);
+  // Everything is on the sheet, also what stands out over the free edge.
+  const double wide = std::stod(between(svg, "width=\"", "mm\"")), high = std::stod(between(svg, "height=\"", "mm\""));
+  for (const std::string& path : all_between(svg, " d=\"", "\"")) {
+    if (path == "M.9 0V1.8") continue;  // of the hatching
+    const auto coordinates = numbers(path);
+    for (std::size_t i = 0; i + 1 < coordinates.size(); i += 2) {
+      CHECK((coordinates[i] > 0 && coordinates[i] < wide));
+      CHECK((coordinates[i + 1] > 0 && coordinates[i + 1] < high));
+    }
+  }
+  CHECK(std::none_of(shown.begin(), shown.end(), [](const std::string& text) { return text == "-200.00"; }));
+}
+
 TEST_CASE("metal that is cut free all around counts as void") {
   TrackDrawing drawing;
   drawing.track_width_mm = kWidth;
@@ -203,9 +322,10 @@ TEST_CASE("metal that is cut free all around counts as void") {
 }
 
 TEST_CASE("ezdxf audits the written DXF without an error and finds the same contours") {
+  const TrackDrawing drawing = GENERATE(example(), guided());
   const std::filesystem::path folder = std::filesystem::temp_directory_path();
   const std::string path = (folder / ("track_drawing_test_" + std::to_string(::getpid()) + ".dxf")).string();
-  const std::string dxf = track_dxf(example());
+  const std::string dxf = track_dxf(drawing);
   std::ofstream(path) << dxf;
   const std::string command = "/usr/bin/python3 " FORMOTION_SOURCE_DIR "/tests/report/audit_dxf.py " + path + " 2>&1";
   FILE* pipe = popen(command.c_str(), "r");
@@ -218,6 +338,10 @@ TEST_CASE("ezdxf audits the written DXF without an error and finds the same cont
   CAPTURE(said);
   REQUIRE(status == 0);
   CHECK_THAT(said, Catch::StartsWith("AC1009 4\n"));
+  double on_circles = 0;  // which the audit leaves out
+  for (const Loop& loop : on_layer(dxf, "WALL")) {
+    if (disc_of(loop)) on_circles += area({loop});
+  }
   std::map<std::string, double> areas;
   std::istringstream lines(said.substr(said.find('\n') + 1));
   std::string layer;
@@ -225,7 +349,8 @@ TEST_CASE("ezdxf audits the written DXF without an error and finds the same cont
   while (lines >> layer >> corners >> contour) areas[layer] += contour;
   CHECK(areas["VOID"] == Approx(area(on_layer(dxf, "VOID"))).margin(1e-5));
   CHECK(areas["TRACK"] == Approx(area(on_layer(dxf, "TRACK"))).margin(1e-5));
-  CHECK(areas["BLADE"] == Approx(50 * kWidth));
+  CHECK(areas["WALL"] == Approx(area(on_layer(dxf, "WALL")) - on_circles).margin(1e-5));
+  CHECK(areas["BLADE"] == Approx(drawing.title == "guided" ? 0 : 50 * kWidth));
 }
 
 TEST_CASE("notes reach the DXF as ASCII, other characters by their number") {

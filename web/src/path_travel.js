@@ -48,7 +48,7 @@ export function pathTravel(path, design, outline, reach, width, moved) {
     const scale = Math.min((px - left - right) / (xTo - xFrom), 420 / tall);
     const inset = left + Math.max(0, (px - left - right - scale * (xTo - xFrom)) / 2);
     const view = makeView(xFrom, tall, scale, inset, top);
-    const floor = view.y(0) + 12;
+    const floor = view.y(Math.max(-30, Math.min(0, box.yMin))) + 12;
     const strip = floor + 34;
     const svg = s('svg', {
       viewBox: `0 0 ${px} ${strip + 30}`,

@@ -162,11 +162,24 @@ function blade(feature, width, from, to, view) {
   ];
 }
 
-// What stands on the track: fences, wall profiles, pins.
+const isProfile = (o) => o.outline_mm && Math.min(...o.outline_mm.map(([, y]) => y)) < 0 && o.name.includes('(wall)');
+
+// What stands on the track: fences, wall profiles, pins. A profile takes the place of the wall, which is not there.
 export function drawObstacles(obstacles, view) {
+  const opened = obstacles.filter(isProfile).map((o) => {
+    const { xMin, xMax, yMin } = boxOf([o.outline_mm]);
+    return s('rect', {
+      class: 'opened',
+      x: view.x(xMin),
+      y: view.y(0) - 1.5,
+      width: (xMax - xMin) * view.scale,
+      height: Math.max(-yMin * view.scale, 12) + 3,
+    });
+  });
   return s(
     'g',
     { class: 'obstacles' },
+    opened,
     obstacles.map((o) =>
       o.outline_mm
         ? s('path', { d: pathOf([o.outline_mm], view.to) }, s('title', null, o.name))

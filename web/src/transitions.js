@@ -86,8 +86,8 @@ export function sensitivityWords(rows) {
         h(
           'tr',
           null,
-          h('th', { scope: 'row' }, 'Efficiency'),
-          rows.map((r) => h('td', { class: 'num' }, percent(r.efficiency))),
+          h('th', { scope: 'row' }, 'Parts that end otherwise'),
+          rows.map((r) => h('td', { class: 'num' }, percent(r.changed_probability))),
         ),
       ]),
     ),

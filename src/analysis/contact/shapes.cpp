@@ -10,6 +10,7 @@ namespace formotion {
 namespace {
 
 constexpr double kStraight_rad = 1e-12;   // corners that turn by less are none
+constexpr double kArcStep_rad = 0.1;      // tangents leave an arc by 0.13 % of its radius
 constexpr double kSamePlace_mm = 1e-6;    // the union's grid moves points by far less
 constexpr double kNearlyParallel = 1e-9;  // sine; lines that meet nowhere near
 
@@ -167,7 +168,10 @@ std::optional<Obstacles> grown_apart(const std::vector<ObstacleShape>& shapes, d
       if (!shape.is_datum) grown.back().radius_mm += grow_mm;
       continue;
     }
-    for (const Polygon& area : united(offset(loops_of(normalised(shape.area)), grow_mm))) grown.push_back({area, 0});
+    OffsetOptions fine;
+    fine.arc_step_rad = kArcStep_rad;
+    for (const Polygon& area : united(offset(loops_of(normalised(shape.area)), grow_mm, fine)))
+      grown.push_back({area, 0});
   }
   return make_obstacles(grown, 0);
 }

@@ -69,7 +69,7 @@ struct FixedCorner {
 struct ObstacleShape {
   Polygon area;           // or, with a radius, a disc about outer[0]
   double radius_mm = 0;   // 0: a polygon
-  bool is_datum = false;  // the wall: it does not grow
+  bool is_datum = false;  // the wall: its face on y = 0 does not grow
 };
 
 struct Obstacles {

@@ -125,7 +125,9 @@ class Follower {
       if (translates && options_.funnels && flow->pairs().size() > 1) {
         for (const Funnels::Funnel& known : options_.funnels->known) {
           if (known.pairs != flow->pairs() || chord(known.mouth, q, space_.part.reach_mm) > kSamePath_mm) continue;
+          const std::uint64_t own = result.history;
           result = known.end;
+          result.history = own * 31 + known.end.history;  // two ways into one funnel are two
           return;
         }
         entered.push_back({flow->pairs(), q, {}});

@@ -74,6 +74,10 @@ struct FeederEvaluation {
   std::vector<Violation> violations;
   std::vector<std::string> warnings;
   Metrics metrics;
+  // At the worst of the uncertain values; none where they are not all projected. Arrivals that do not end alike for all
+  // of them count as jams.
+  std::optional<Metrics> worst_case;
+  std::optional<std::string> bites;  // the uncertain value that changes an arrival's end
   std::vector<PoseResult> poses;
   std::vector<MapInterval> outcome_map;  // of designs with obstacles
   int goal_pose = -1;                    // index into poses; -1 where no pose is the goal

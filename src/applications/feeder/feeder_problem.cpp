@@ -12,6 +12,7 @@
 #include "analysis/geometry/boolean.hpp"
 #include "applications/feeder/pose_travel.hpp"
 #include "applications/feeder/turning.hpp"
+#include "applications/feeder/turning_sets.hpp"
 #include "applications/feeder/world.hpp"
 
 namespace formotion::feeder {
@@ -163,6 +164,16 @@ std::string arrival_name(const PartModel& part, const TurningEvaluation& travels
   if (!on_belt) return "pose " + pose_name(part, part.poses[i].stable);
   const MapInterval& interval = travels.map[i];
   return "starts " + interval.aspect + " " + degrees(interval.from_rad) + " to " + degrees(interval.to_rad) + " deg";
+}
+
+// The intervals that forward projection covers, if there are some and nothing else is uncertain.
+std::optional<std::map<std::string, std::pair<double, double>>> projected_intervals(const Uncertainty& uncertainty) {
+  if (uncertainty.outline_mm > 0 || uncertainty.com_mm > 0 || uncertainty.feature_mm > 0) return std::nullopt;
+  for (const auto& [name, interval] : uncertainty.intervals) {
+    if (name != "wall_friction" && name != "drive_deg") return std::nullopt;
+  }
+  if (uncertainty.intervals.empty()) return std::nullopt;
+  return uncertainty.intervals;
 }
 
 std::vector<Violation> defects_of(const PartModel& part) {
@@ -368,6 +379,32 @@ FeederProblem::Model::Judged FeederProblem::Model::judge(int topology, std::span
     for (const Violation& violation : result.violations) judged.violation += violation.by;
     if (count == 0) result.violations.push_back({"the part rests in no pose on the wall", "part", 1});
     result.feasible = result.violations.empty();
+    if (in_detail && turns) {
+      if (const auto box = projected_intervals(spec.uncertainty)) {
+        const SetEvaluation sets = arrivals_over_sets(model, layout, spec.environment, *box, travels);
+        judged.work += sets.projections;
+        Metrics worst = metrics;
+        worst.efficiency = worst.jam_probability = 0;
+        double leaves = 0;
+        for (std::size_t i = 0; i < arrivals.size(); ++i) {
+          const double prior = arrivals[i].result.prior;
+          if (sets.arrivals[i] == Outcome::Delivered) {
+            leaves += prior;
+            if (serves(arrivals[i])) worst.efficiency += prior;
+          } else if (sets.arrivals[i] == Outcome::Jammed || sets.arrivals[i] == Outcome::Ambiguous) {
+            worst.jam_probability += prior;
+          }
+        }
+        worst.purity = leaves > 0 ? std::optional<double>(worst.efficiency / leaves) : std::nullopt;
+        worst.tolerance_mm = worst.margin_mm = std::nullopt;
+        worst.feed_rate_per_min =
+            metrics.efficiency > 0 && metrics.feed_rate_per_min
+                ? std::optional<double>(*metrics.feed_rate_per_min * worst.efficiency / metrics.efficiency)
+                : std::nullopt;
+        result.worst_case = worst;
+        result.bites = sets.bites;
+      }
+    }
     if (in_detail) collect_warnings(travels.poses, layout, spec.environment, result.warnings);
 
     // Invalid shapes have no tolerance; for the score's sake infeasible designs need none.

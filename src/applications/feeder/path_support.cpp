@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLongestPiece_mm = 4;
+constexpr double kMarginPiece_mm =
+    0.05;  // the least margin of a turning piece is that of places this near to each other
 constexpr double kBeyond_mm = 1e4;
 
 template <class Change>
@@ -239,15 +241,16 @@ std::optional<double> PathSupport::turn(const PathStretch& stretch, double from,
     lose(middle, std::move(loss), margin == -kInfinity ? 0 : -margin);
     return middle_at;
   }
+  least_ = std::min(least_, margin);
   double piece = kLongestPiece_mm;
   while (piece > moves && piece > kLeastPiece_mm) piece /= 2;
   piece *= 2;  // the least of a fixed ladder that is not below moves: few floors are made
-  if (moves <= kLongestPiece_mm && margin_on(floor_.eroded(piece), middle) >= 2 * piece) {
-    least_ = std::min(least_, margin);
-    return std::nullopt;
+  if (moves <= kLongestPiece_mm) {
+    // Held up all along; and nowhere with less margin than is known, or the piece is too short to matter.
+    const double surely = margin_on(floor_.eroded(piece), middle) - 2 * piece;
+    if (surely >= 0 && (surely >= least_ || moves <= kMarginPiece_mm)) return std::nullopt;
   }
   if (moves <= kLeastPiece_mm) {
-    least_ = std::min(least_, margin);
     marginal_ = marginal_ || margin < 2 * piece;
     return std::nullopt;
   }
