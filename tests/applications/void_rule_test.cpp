@@ -153,18 +153,18 @@ TEST_CASE("what a jammed pose lacks is what its void lacks: the slope that a sea
   CHECK(lacking(12.1) == 0);
 }
 
-TEST_CASE("an obstacle on the track leaves the poses that reach it undecided, and those that pass beside it alone") {
+TEST_CASE("a block on the track stops the poses that reach it, and leaves those that pass beside it alone") {
   const auto evaluate_with = [](const Loop& obstacle, feeder::DesignSpec before) {
     before.push_back({feeder::Drawing{"", {}, {obstacle}}, std::nullopt});
     return evaluated(feeder_spec(plate(30, 10, 3), std::move(before), 60));
   };
   const auto reached = evaluate_with(rectangle(0, 5, 10, 20), {});
   CHECK_FALSE(reached.feasible);
-  for (const auto& pose : reached.poses) CHECK(pose.outcome == Outcome::Undecided);
+  for (const auto& pose : reached.poses) CHECK(pose.outcome == Outcome::Jammed);
   // 10 mm high on the long edge, 30 mm on the short one.
   const auto beside = evaluate_with(rectangle(0, 12, 10, 20), {});
   CHECK(beside.poses[0].outcome == Outcome::Delivered);
-  CHECK(beside.poses[1].outcome == Outcome::Undecided);
+  CHECK(beside.poses[1].outcome == Outcome::Jammed);
   // A gap before it takes all of them first.
   const auto gone = evaluate_with(rectangle(0, 5, 10, 20), {gap(50)});
   for (const auto& pose : gone.poses) CHECK(pose.outcome == Outcome::Rejected);

@@ -57,18 +57,51 @@ TEST_CASE("a wall with a ramp and a recess turns two poses of the tee into its g
   CHECK(json.at("poses").back().at("outcome") == "rejected");
 }
 
-TEST_CASE("the outcome map of a belt covers the full turn, and neighbours share their ends") {
-  const Json map = evaluated("belt_with_fences").at("outcome_map");
-  REQUIRE(map.size() >= 3);
-  double sum = 0, most = 0;
+TEST_CASE("a belt with two fences brings every start into one orientation, and its map covers the full turn") {
+  const Json one = evaluated("belt_with_fences");
+  CHECK(one.at("feasible") == true);
+  CHECK(efficiency(one) == 1);
+  REQUIRE(one.at("outcome_map").size() == 1);
+  CHECK(one["outcome_map"][0].at("from_deg") == 0);
+  CHECK(one["outcome_map"][0].at("to_deg") == 360);
+
+  // With the first fence alone, parts leave in two.
+  Json problem = Json::parse(read_file(shipped("belt_with_fences.json")));
+  problem["design"]["features"].erase(1);
+  problem["variables"].erase("run2");
+  problem["variables"].erase("drop2");
+  const Folder folder;
+  write_file(folder / "one_fence.json", problem.dump());
+  const Said said = run({"evaluate", folder / "one_fence.json"});
+  REQUIRE(said.code == 0);
+  const Json map = Json::parse(said.out).at("outcome_map");
+  REQUIRE(map.size() >= 2);
+  double sum = 0;
   for (std::size_t i = 0; i < map.size(); ++i) {
     CHECK(map[i].at("to_deg") == map[(i + 1) % map.size()].at("from_deg"));
     const double width = map[i]["to_deg"].get<double>() - map[i]["from_deg"].get<double>();
     sum += width > 0 ? width : width + 360;
-    most = std::max(most, width > 0 ? width : width + 360);
   }
   CHECK(sum == Approx(360));
-  CHECK(most / 360 > 0.9);  // nearly all leave in one orientation
+}
+
+TEST_CASE(
+    "uncertain friction and drive are projected: what they change counts as a jam, and the one that bites is named") {
+  Json problem = Json::parse(read_file(shipped("ramps_and_pin.json")));
+  const Folder folder;
+  const auto worst = [&](double low, double high) {
+    problem["uncertainty"] = {{"wall_friction", {low, high}}, {"drive_deg", {-30.1, -29.9}}};
+    write_file(folder / "uncertain.json", problem.dump());
+    const Said said = run({"evaluate", folder / "uncertain.json"});
+    REQUIRE(said.code == 0);
+    return Json::parse(said.out).at("worst_case");
+  };
+  const Json calm = worst(0.199, 0.201), wild = worst(0.1, 0.3);
+  CHECK(calm.at("efficiency") == 1);
+  CHECK(calm.at("bites") == nullptr);
+  CHECK(wild.at("efficiency").get<double>() < 1);
+  CHECK(wild.at("jam_probability").get<double>() > 0);
+  CHECK(wild.at("bites") == "wall_friction");
 }
 
 TEST_CASE("tracks with obstacles are drawn, and their drawings are tracks again") {

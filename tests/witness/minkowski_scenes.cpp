@@ -116,9 +116,8 @@ ContactScene round_scene(Random& random, bool pins) {
     scene.grow_mm = uniform(random, 0.1, 5);
   }
   scene.obstacles = *make_obstacles(shapes, scene.grow_mm);
-  const bool swallowed = std::any_of(scene.obstacles.edges.begin(), scene.obstacles.edges.end(),
-                                     [](const FixedEdge& edge) { return !(edge.length_mm > 0); });
-  return swallowed ? round_scene(random, pins) : scene;  // boundaries that growing shuts are not exact
+  return scene.obstacles.round_exactly ? scene
+                                       : round_scene(random, pins);  // boundaries that growing shuts are not exact
 }
 
 Configuration random_placement(Random& random, const ContactScene& scene) {

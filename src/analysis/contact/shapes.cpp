@@ -173,7 +173,9 @@ std::optional<Obstacles> grown_apart(const std::vector<ObstacleShape>& shapes, d
     for (const Polygon& area : united(offset(loops_of(normalised(shape.area)), grow_mm, fine)))
       grown.push_back({area, 0});
   }
-  return make_obstacles(grown, 0);
+  std::optional<Obstacles> obstacles = make_obstacles(grown, 0);
+  if (obstacles) obstacles->round_exactly = false;
+  return obstacles;
 }
 
 bool boxes_meet(const std::vector<Polygon>& polygons) {

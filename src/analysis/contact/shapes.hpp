@@ -76,6 +76,7 @@ struct Obstacles {
   std::vector<FixedEdge> edges;
   std::vector<FixedCorner> corners;  // convex ones
   std::vector<Polygon> areas;        // without rounding: what the edges and corners with radius 0 bound
+  bool round_exactly = true;         // false where tangents stand for arcs (see make_obstacles)
 };
 
 // The union of the shapes, grown (grow_mm > 0) or shrunk (< 0) but for data. Grown convex corners are round, exactly;
