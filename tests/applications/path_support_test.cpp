@@ -73,7 +73,7 @@ void compare(std::uint64_t seed, Tally& tally) {
     }
   }
   const Track whole{spec.environment.track_width_mm, united(loops)};
-  const feeder::Floor floor = feeder::Floor::of(groups, spec.environment.track_width_mm);
+  const feeder::Floor floor = feeder::Floor::of(groups, spec.environment.track_width_mm, {});
   const feeder::AspectShape& shape = part.shapes[0];
   const double shift = feeder::wall_shift(shape.com_height_mm, spec.environment), reach = track->world(0).part.reach_mm;
   for (const feeder::PoseModel& pose : part.poses) {

@@ -185,7 +185,7 @@ TEST_CASE("of a part in layers the footprint alone is supported, all layers meet
   CHECK(outcome({balcony(8.1, 90)}) == feeder::Outcome::Delivered);
 }
 
-TEST_CASE("a pose on a real edge is kept however shallow; an arc's chords make one pose at most") {
+TEST_CASE("a pose on a real edge is kept however shallow, an arc's chords make one pose at most") {
   // 20 x 10, the centre of mass 0.2 mm inside the end of the long edge: a rise of 0.0025 mm leads out of that pose.
   const auto poses =
       evaluated(feeder_spec(flat_part(rectangle(0, 0, 20, 10), false, {}, Point(19.8, 8)), {gap(1)})).poses;

@@ -176,7 +176,7 @@ TEST_CASE("fences inside the wall and straight wall profiles change nothing") {
   }
 }
 
-TEST_CASE("a low ramp lifts parts and sets them down again as they were; a block in the way stops them all") {
+TEST_CASE("a low ramp lifts parts and sets them down again as they were, a block in the way stops them all") {
   const auto lifted = evaluated(
       feeder_spec(flat_part(rectangle(0, 0, 40, 10), false), {at(fence({{-5, -0.1}, {400, -0.1}, {400, 8}}), 0)}, 80));
   check_map(lifted);

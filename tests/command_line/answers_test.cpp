@@ -114,7 +114,7 @@ TEST_CASE("bad input is exit code 2, one line an error, nothing on stdout, nothi
   }
 }
 
-TEST_CASE("usage errors are exit code 2 and a line; help and version are 0") {
+TEST_CASE("usage errors are exit code 2 and a line, help and version are 0") {
   const Problem problem;
   const std::vector<std::vector<std::string>> wrong{{},
                                                     {"optimise", problem.file},

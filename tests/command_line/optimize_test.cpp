@@ -63,7 +63,7 @@ TEST_CASE("a run ends with all its files, and its designs say the same everywher
   CHECK(Json::parse(run({"report", out, "--format", "json"}).out).is_object());
 }
 
-TEST_CASE("the same bytes for one, two and eight threads; other bytes for another seed") {
+TEST_CASE("the same bytes for one, two and eight threads, other bytes for another seed") {
   const Folder folder;
   REQUIRE(run(optimize(folder / "1", {"--threads", "1"})).code == 0);
   REQUIRE(run(optimize(folder / "2", {"--threads", "2"})).code == 0);
@@ -75,7 +75,7 @@ TEST_CASE("the same bytes for one, two and eight threads; other bytes for anothe
   CHECK(one != read_file(folder / "s/pareto.json"));
 }
 
-TEST_CASE("Ctrl-C stops cleanly and says how to go on; the run then ends as if it had never stopped") {
+TEST_CASE("Ctrl-C stops cleanly and says how to go on, the run then ends as if it had never stopped") {
   const Folder folder;
   const std::vector<std::string> long_run{"optimize", kEl, "--evaluations", "12000", "--threads", "1", "--out"};
   const auto with_out = [&](const std::string& out) {

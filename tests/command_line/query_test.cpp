@@ -129,7 +129,7 @@ TEST_CASE("a larger tolerance finds contacts that are not there yet") {
   CHECK(names(problem.ask(within(question("contacts", 0, 6.01, 0), 0.02))) == Names{"VE 0 [0,0]", "VE 4 [0,0]"});
 }
 
-TEST_CASE("along the wall a part slides with what friction leaves of the drive; against a pin it rests") {
+TEST_CASE("along the wall a part slides with what friction leaves of the drive, against a pin it rests") {
   const Problem problem;
   const Json sliding = problem.ask(question("motion", 0, 6, 0));
   CHECK(names(sliding) == Names{"VE 0 [0,0]", "VE 4 [0,0]"});

@@ -58,7 +58,7 @@ TEST_CASE("a design written out and read back scores the same, for every type of
   CHECK(after["poses"] == before["poses"]);
 }
 
-TEST_CASE("an evaluation has the contract's keys; without uncertainty the worst case is the nominal one") {
+TEST_CASE("an evaluation has the contract's keys, without uncertainty the worst case is the nominal one") {
   ProblemFile file = parse_problem(kProblem, "p.json");
   const feeder::FeederProblem problem(file.feeder);
   const OrderedJson json = evaluated_json(problem, 0, std::vector<double>{9, 30});

@@ -215,7 +215,7 @@ TEST_CASE("all errors of a file come at once") {
   }
 }
 
-TEST_CASE("text that is no JSON names its line and column; duplicate keys their place") {
+TEST_CASE("text that is no JSON names its line and column, duplicate keys their place") {
   auto issues = issues_of("{\n  \"formotion\": 1,\n  \"name\": \"a\"\n  \"kind\": 2}");
   REQUIRE(issues.size() == 1);
   CHECK(to_line(issues[0]).rfind("error: p.json:4:", 0) == 0);

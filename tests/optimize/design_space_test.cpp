@@ -44,7 +44,7 @@ TEST_CASE("spread points fill the unit square evenly: each of 64 cells holds its
   for (const int count : cells) CHECK(std::abs(count - 100) <= 20);
 }
 
-TEST_CASE("work in parallel is done once each, for every number of threads; exceptions come through") {
+TEST_CASE("work in parallel is done once each, for every number of threads, exceptions come through") {
   for (const int threads : {0, 1, 2, 7}) {
     std::vector<std::atomic<int>> done(100);
     run_parallel(100, threads, [&](int i) { ++done[static_cast<std::size_t>(i)]; });

@@ -139,7 +139,7 @@ TEST_CASE("a run can be looked at while it is written, and shows whole batches")
   search(problem, state, &store, how);
 }
 
-TEST_CASE("a folder with a run is not begun again unless told to; a run that is under way never") {
+TEST_CASE("a folder with a run is not begun again unless told to, a run that is under way never") {
   const Folder folder;
   {
     const RunStore store = RunStore::create(folder.path, kIdentity, false);

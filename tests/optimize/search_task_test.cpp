@@ -62,7 +62,7 @@ TEST_CASE("a bound on an objective is kept where it can be") {
   CHECK(best == Approx(3.6).margin(1e-5));
 }
 
-TEST_CASE("merits rank: bounds kept and feasible, bounds broken, infeasible; nearer ones first") {
+TEST_CASE("merits rank: bounds kept and feasible, bounds broken, infeasible, nearer ones first") {
   const std::vector<Objective> objectives{{"gain", true, 0, false}, {"cost", false, 0, false}};
   const Merit merit{0, {std::nullopt, 5.0}, {1, 1}};
   const auto score = [](bool feasible, double violation, double gain, double cost) {

@@ -115,7 +115,7 @@ TEST_CASE("a search without variables ends when nothing new can be tried") {
   CHECK(state.best_designs().size() == 1);
 }
 
-TEST_CASE("what the scorer throws comes out of the search; the batches before stay") {
+TEST_CASE("what the scorer throws comes out of the search, the batches before stay") {
   class Broken final : public Problem {
    public:
     std::span<const Variable> variables() const override { return inner_.variables(); }

@@ -2,7 +2,7 @@
 //
 // In closed form: translations, pivots about a sticking contact, and a corner that slides on a straight edge (the
 // motion is a function of theta alone). A motion guided by two contacts is placed on their curve by Newton's method.
-// An edge sliding on a fixed corner, and contacts with round corners, are integrated (Dormand-Prince 5(4),
+// An edge sliding on a fixed corner, and contacts with round corners, are integrated (Runge-Kutta-Fehlberg 7(8),
 // Boost.Odeint) and put back on the contact.
 #pragma once
 

@@ -17,6 +17,12 @@ constexpr double kMarginPiece_mm =
     0.05;  // the least margin of a turning piece is that of places this near to each other
 constexpr double kBeyond_mm = 1e4;
 
+Box grown(Box box, double by) {
+  box.min.array() -= by;
+  box.max.array() += by;
+  return box;
+}
+
 template <class Change>
 void each_point(Polygon& polygon, const Change& change) {
   for (Point& p : polygon.outer) p = change(p);
@@ -27,10 +33,11 @@ void each_point(Polygon& polygon, const Change& change) {
 
 }  // namespace
 
-Floor Floor::of(std::vector<VoidGroup> groups, double width_mm) {
+Floor Floor::of(std::vector<VoidGroup> groups, double width_mm, std::vector<Interval> recesses) {
   Floor floor;
   floor.groups = std::move(groups);
   floor.width_mm = width_mm;
+  floor.recesses = std::move(recesses);
   for (const VoidGroup& group : floor.groups) {
     Box box;
     for (const Loop& loop : group.loops) {
@@ -75,23 +82,26 @@ double PathSupport::plain_margin(double theta_rad) const {
 // Everything between two configurations stays on plain track.
 bool PathSupport::stands_clear(const Configuration& a, const Configuration& b) const {
   Box box;
-  box.include(a.position());
-  box.include(b.position());
-  const double room = reach_ + (a.position() - b.position()).norm() / 2 * (a.theta_rad == b.theta_rad ? 0 : 1);
-  box.min.array() -= room;
-  box.max.array() += room;
-  if (a.theta_rad == b.theta_rad) {  // a translation: the footprint's own extent
-    const Box own = bounding_box(placed(shape_.footprint, a.theta_rad, Point::Zero()).outer);
-    box = {};
-    for (const Configuration& q : {a, b}) {
-      box.include(q.position() + own.min);
-      box.include(q.position() + own.max);
-    }
+  for (const Configuration& q : {a, b}) {
+    const Box own = bounding_box(placed(shape_.footprint, q.theta_rad, q.position()).outer);
+    box.include(own.min);
+    box.include(own.max);
   }
-  if (box.min.y() < -1e-6 || box.max.y() > floor_.width_mm) return false;
+  if (a.theta_rad != b.theta_rad) box = grown(box, farthest_move(a, b));
+  const bool behind =
+      box.min.y() < -1e-6 && std::any_of(floor_.recesses.begin(), floor_.recesses.end(), [&](const Interval& recess) {
+        return recess.from <= box.max.x() && box.min.x() <= recess.to;
+      });
+  if (behind || box.max.y() > floor_.width_mm) return false;
   return std::none_of(floor_.boxes.begin(), floor_.boxes.end(), [&](const Box& v) {
     return v.min.x() <= box.max.x() && box.min.x() <= v.max.x() && v.min.y() <= box.max.y() && box.min.y() <= v.max.y();
   });
+}
+
+// How far any point of the part moves from the middle of a turning piece: half of the way, doubled for bent paths. It
+// is then no farther from one of the ends.
+double PathSupport::farthest_move(const Configuration& a, const Configuration& b) const {
+  return (a.position() - b.position()).norm() + reach_ * std::abs(a.theta_rad - b.theta_rad);
 }
 
 std::optional<double> PathSupport::operator()(const PathStretch& stretch) {
@@ -217,8 +227,7 @@ std::optional<double> PathSupport::turn(const PathStretch& stretch, double from,
     least_ = std::min(least_, plain_);
     return std::nullopt;
   }
-  // How far any point of the part moves from the middle: half of the way, doubled for bent paths.
-  const double moves = (a.position() - b.position()).norm() + reach_ * std::abs(a.theta_rad - b.theta_rad);
+  const double moves = farthest_move(a, b);
   const double middle_at = (from + to) / 2;
   const Configuration middle = stretch.at(middle_at);
   const double margin = margin_on(floor_.eroded(0), middle);

@@ -25,10 +25,11 @@ struct Floor {
   std::vector<VoidGroup> groups;
   std::vector<Box> boxes;  // of the groups
   double width_mm = 0;
+  std::vector<Interval> recesses;  // of the wall: elsewhere nothing of a part can come behind its face
   // By how far everything is grown: the floor that is left. Made when asked for.
   const Track& eroded(double by_mm) const;
 
-  static Floor of(std::vector<VoidGroup> groups, double width_mm);
+  static Floor of(std::vector<VoidGroup> groups, double width_mm, std::vector<Interval> recesses);
 
  private:
   mutable std::map<double, Track> eroded_;
@@ -59,6 +60,7 @@ class PathSupport {
                              const Configuration& b);
   double margin_on(const Track& track, const Configuration& q) const;
   double plain_margin(double theta_rad) const;
+  double farthest_move(const Configuration& a, const Configuration& b) const;
   bool stands_clear(const Configuration& a, const Configuration& b) const;
   int group_under(const Configuration& q) const;
   void lose(const Configuration& q, SupportLoss loss, double depth);

@@ -193,7 +193,8 @@ SpacePicture space_picture(const SpaceScene& scene, const World& world, int aspe
   picture.step_rad = 2 * std::numbers::pi / kSlices;
   const Labels label(scene, world, aspect);
   const Environment& environment = scene.spec.environment;
-  const Floor floor = Floor::of(grouped(scene.layout, scene.part.longest_mm), environment.track_width_mm);
+  const Floor floor =
+      Floor::of(grouped(scene.layout, scene.part.longest_mm), environment.track_width_mm, recesses(scene.layout));
   // Contacts that are called alike are one facet: obstacles cut the wall's face into several edges.
   std::map<std::tuple<ContactKind, int, int>, int> known;
   const auto index_of = [&](const ContactPair& pair) {

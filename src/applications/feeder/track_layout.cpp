@@ -288,6 +288,13 @@ Layout lay_out(const DesignSpec& design, const Environment& environment, const M
   return layout;
 }
 
+std::vector<Interval> recesses(const Layout& layout) {
+  std::vector<Interval> cuts;
+  for (const LaidFeature& feature : layout.features)
+    cuts.insert(cuts.end(), feature.wall_cuts.begin(), feature.wall_cuts.end());
+  return joined(std::move(cuts));
+}
+
 std::vector<VoidGroup> grouped(const Layout& layout, double reach_mm) {
   std::vector<int> order;
   for (int i = 0; i < static_cast<int>(layout.features.size()); ++i) {

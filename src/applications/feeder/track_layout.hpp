@@ -30,6 +30,9 @@ struct Layout {
   double length_mm = 0;
 };
 
+// Where profiles take the wall away, ascending: elsewhere nothing of a part comes behind the wall's face.
+std::vector<Interval> recesses(const Layout& layout);
+
 // Voids that can act on the part at the same time: all of a track's that lie nearer to each other than reach_mm.
 struct VoidGroup {
   std::vector<int> features;  // indices, by position

@@ -94,7 +94,7 @@ std::optional<TurningTrack> TurningTrack::of(const PartModel& part, const Layout
     for (VoidGroup& group : groups) group.loops = offset(group.loops, errors.voids_mm);
     std::erase_if(groups, [](const VoidGroup& group) { return group.loops.empty(); });
   }
-  track.floor_ = std::make_shared<Floor>(Floor::of(std::move(groups), environment.track_width_mm));
+  track.floor_ = std::make_shared<Floor>(Floor::of(std::move(groups), environment.track_width_mm, recesses(layout)));
   track.first_mm_ = 0;
   for (const LaidFeature& feature : layout.features) {
     track.first_mm_ = std::min(track.first_mm_, feature.start_mm);

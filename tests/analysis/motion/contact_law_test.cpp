@@ -93,7 +93,7 @@ TEST_CASE("the answers of an ambiguous contact are those of Painleve: apart, sti
   CHECK(three > 20);
 }
 
-TEST_CASE("where opposite contacts can wedge, rest and motion are both listed; without friction motion alone") {
+TEST_CASE("where opposite contacts can wedge, rest and motion are both listed, without friction motion alone") {
   // In a channel of its own width, driven along it.
   const std::vector<ContactPoint> contacts{{{0, 1}, {0, -1}}, {{0, -1}, {0, 1}}};
   for (const double angle : {-0.2, 0.0, 0.2}) {
