@@ -48,8 +48,8 @@ struct Leg {
 struct Projection {
   ProjectionEnd end = ProjectionEnd::Undecided;
   std::uint64_t history = 0;  // of contacts, motions and events: equal for paths that go the same way
-  bool funnelled = false;  // it went along a guided translation of two contacts or more: many starts end alike
-  Configuration last;  // at rest, or where the last steady translation begins
+  bool funnelled = false;     // it went along a guided translation of two contacts or more: many starts end alike
+  Configuration last;         // at rest, or where the last steady translation begins
   Twist last_twist;           // of the steady translation
   std::vector<Leg> legs;
   std::string why;        // a sentence: ambiguous between what, which limit
