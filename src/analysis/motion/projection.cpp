@@ -3,29 +3,21 @@
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <limits>
-#include <sstream>
 
-#include "analysis/motion/flow.hpp"
+#include "analysis/motion/first_touch.hpp"
 
 namespace formotion {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kOverlap_mm = 1e-8;     // gaps below minus this are contacts that have been missed
-constexpr double kForever_mm = 9e3;      // translations longer than this meet nothing more
-constexpr double kReserve = 2e-9;        // modes hold until their reserve is below minus this
-constexpr double kChordError_mm = 1e-5;  // of a cubic that stands for a gap that begins flat
-constexpr double kFlat_mm = 1e-9;
+constexpr double kForever_mm = 9e3;       // translations longer than this meet nothing more
+constexpr double kReserve = 2e-9;         // modes hold until their reserve is below minus this
 constexpr double kLongestChord_mm = 0.3;  // steps that bend more are shortened
 constexpr double kStepError_mm = 1e-9;    // of integration
 constexpr double kSamePath_mm = 1e-9;     // between places where guided translations end
 constexpr double kSameWay = 1e-7;         // between directions of motion, of unit speed
 constexpr double kSlow = 1e-7;            // of the drive: forces that are out of balance by less leave the part at rest
 constexpr double kShortest = 1e-12;       // steps
-
-double chord(const Configuration& a, const Configuration& b, double reach) {
-  return std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm, reach * (a.theta_rad - b.theta_rad));
-}
 
 // The first root of a function with f(a) >= 0 > f(b).
 template <class F>
@@ -35,21 +27,6 @@ double root(const F& f, double a, double b, double fa, double fb) {
   // Relative to the bracket: a slide goes far within angles of 1e-12 where its force passes by the centre of mass.
   const auto close = [width = b - a](double low, double high) { return high - low <= 1e-13 * width; };
   return boost::math::tools::toms748_solve(f, a, b, fa, fb, close, most).second;
-}
-
-// The root of a falling function whose slope is known: Newton's method inside a bracket that halves where it fails.
-template <class F>
-double steep_root(const F& f, double low, double high, double f_low, double f_high) {
-  double x = low + (high - low) * f_low / (f_low - f_high);
-  for (int i = 0; i < 80; ++i) {
-    const auto [value, slope] = f(x);
-    (value >= 0 ? low : high) = x;
-    double next = x - value / slope;
-    if (!(next > low && next < high)) next = low + (high - low) / 2;
-    if (std::abs(next - x) <= 1e-15 + 4e-16 * std::abs(x) || !(next > low && next < high)) break;
-    x = next;
-  }
-  return x;
 }
 
 struct Candidate {
@@ -281,19 +258,6 @@ class Follower {
     return widest;
   }
 
-  // The gaps of everything near a step, at its ends.
-  struct Watched {
-    std::size_t index;
-    double gap, rate;
-  };
-
-  double gap_at(std::size_t index, const Configuration& q, ContactState* out = nullptr) const {
-    const ContactState state = contact_state(space_.part, space_.obstacles, space_.pairs[index], q.position(),
-                                             std::cos(q.theta_rad), std::sin(q.theta_rad));
-    if (out) *out = state;
-    return state.gap_mm;
-  }
-
   static constexpr const char* kTouches = "touches";
   static constexpr const char* kChanges = "contact changes";
   static constexpr const char* kStops = "stopped";
@@ -310,7 +274,7 @@ class Follower {
       if (carries(flow, pair)) continue;
       if (pair.kind == ContactKind::CornerOnCorner) {
         const double at = meets_round(pair, q, t, c, s, first);
-        if (at < first && closes(flow, i, flow.at(at))) {
+        if (at < first && closes(space_, flow, i, flow.at(at))) {
           first = at;
           event = kTouches;
         }
@@ -323,7 +287,7 @@ class Follower {
       if (at >= first) continue;
       // What touched at the start was looked at when this motion was chosen.
       if (state.gap_mm <= kContact_mm && (at == 0 || can_touch(space_, i, state, q.theta_rad))) continue;
-      if (!closes(flow, i, flow.at(at))) continue;
+      if (!closes(space_, flow, i, flow.at(at))) continue;
       first = at;
       event = kTouches;
     }
@@ -345,28 +309,6 @@ class Follower {
     }
     if (!event) return std::nullopt;
     return Stop{flow.at(first), event};
-  }
-
-  // Whether a pair whose gap is about 0 at q touches there: its features are in reach of each other, and where convex
-  // corners meet no other pair of their edges keeps them apart.
-  bool closes(const Flow& flow, std::size_t index, const Configuration& q) const {
-    Touch touch{space_.pairs[index], {}};
-    gap_at(index, q, &touch.state);
-    if (!can_touch(space_, index, touch.state, q.theta_rad)) return false;
-    const CornerMeeting meeting = meeting_of(space_, touch);
-    if (!meeting.is_one()) return true;
-    for (const std::size_t other : space_.pairs_of(meeting)) {
-      if (other == index) continue;
-      touch.pair = space_.pairs[other];
-      const double gap = gap_at(other, q, &touch.state);
-      if (!can_touch(space_, other, touch.state, q.theta_rad) || meeting_of(space_, touch) != meeting) continue;
-      if (gap > kOverlap_mm || carries(flow, touch.pair)) return false;
-    }
-    return true;
-  }
-
-  static bool carries(const Flow& flow, const ContactPair& pair) {
-    return std::find(flow.pairs().begin(), flow.pairs().end(), pair) != flow.pairs().end();
   }
 
   // How far a guided translation goes until the contact is at the end of its edge.
@@ -392,13 +334,12 @@ class Follower {
   }
 
   std::optional<Stop> turn(Flow& flow, std::vector<Configuration>* between) const {
-    std::vector<bool> near_edge(space_.edge_boxes.size()), near_corner(space_.corner_boxes.size());
     for (int steps = 0; steps < 100000; ++steps) {
       const Configuration q = flow.start();
       double h = flow.longest_step();
       if (!(h > kShortest)) return Stop{q, "stalls"};
       const Twist rate = flow.tangent(q);
-      Step step{q, rate, q, rate, h, 0};
+      FlowStep step{q, rate, q, rate, h, 0};
       while (!take(flow, step, h) && h > kShortest) h /= 2;
       const char* event = nullptr;
       const auto left = [&](double at) { return flow.reserve(flow.at(at)) + kReserve; };
@@ -414,7 +355,7 @@ class Follower {
         before = at;
       }
       if (step.h > 0) {
-        const double touch = first_touch(flow, step, near_edge, near_corner);
+        const double touch = first_touch(space_, flow, step);
         if (touch < step.h || (touch == step.h && !event)) {
           take(flow, step, touch);
           event = kTouches;
@@ -433,17 +374,8 @@ class Follower {
     return Stop{flow.start(), "stalls"};
   }
 
-  struct Step {
-    Configuration start;
-    Twist rate;
-    Configuration end;
-    Twist rate_end;
-    double h = 0;
-    double chord_mm = 0;  // between the flow and the cubic through the step's ends and rates, in its middle
-  };
-
   // False where the flow cannot be followed so far.
-  bool take(const Flow& flow, Step& step, double h) const {
+  bool take(const Flow& flow, FlowStep& step, double h) const {
     double error = 0;
     step.h = h;
     step.end = flow.at(h, error);
@@ -458,119 +390,6 @@ class Follower {
         cubic(step.start.theta_rad, step.rate.angular, step.end.theta_rad, step.rate_end.angular)};
     step.chord_mm = chord(middle, guess, space_.part.reach_mm);
     return error <= kStepError_mm && step.chord_mm <= kLongestChord_mm;
-  }
-
-  // The first h at which a pair that does not carry closes its gap; infinite if none does.
-  double first_touch(const Flow& flow, const Step& step, std::vector<bool>& near_edge,
-                     std::vector<bool>& near_corner) const {
-    const Configuration &q = step.start, &end = step.end;
-    Box swept;
-    swept.include(q.position());
-    swept.include(end.position());
-    const double room = space_.part.reach_mm + 0.25 * (end.position() - q.position()).norm() + 1e-3;
-    swept.min.array() -= room;
-    swept.max.array() += room;
-    const auto meets = [&](const Box& box) {
-      return box.min.x() <= swept.max.x() && swept.min.x() <= box.max.x() && box.min.y() <= swept.max.y() &&
-             swept.min.y() <= box.max.y();
-    };
-    for (std::size_t i = 0; i < near_edge.size(); ++i) near_edge[i] = meets(space_.edge_boxes[i]);
-    for (std::size_t i = 0; i < near_corner.size(); ++i) near_corner[i] = meets(space_.corner_boxes[i]);
-    const double c0 = std::cos(q.theta_rad), s0 = std::sin(q.theta_rad);
-    const double c1 = std::cos(end.theta_rad), s1 = std::sin(end.theta_rad);
-    double first = kInfinity;
-    for (std::size_t i = 0; i < space_.pairs.size(); ++i) {
-      const ContactPair& pair = space_.pairs[i];
-      if (!(pair.kind == ContactKind::CornerOnEdge ? near_edge[pair.fixed] : near_corner[pair.fixed])) continue;
-      if (carries(flow, pair)) continue;
-      const ContactState a = contact_state(space_.part, space_.obstacles, pair, q.position(), c0, s0);
-      const ContactState b = contact_state(space_.part, space_.obstacles, pair, end.position(), c1, s1);
-      const Piece piece{0,
-                        step.h,
-                        a.gap_mm,
-                        separation_speed(point_of(a), step.rate),
-                        b.gap_mm,
-                        separation_speed(point_of(b), step.rate_end),
-                        2 * step.chord_mm,
-                        q,
-                        end};
-      const double floor = (std::abs(a.gap_mm) <= kContact_mm ? std::min(0.0, a.gap_mm) : 0) - kOverlap_mm;
-      first = std::min(first, crossing(flow, i, piece, floor, 0));
-    }
-    return first;
-  }
-
-  struct Piece {
-    double from, to, gap, rate, gap_end, rate_end;
-    double chord_mm;  // bound of the gap's distance from its cubic in the middle
-    Configuration start, end;
-  };
-  static constexpr double kPathOverChord = 1.5;  // paths that bend one way, by less than a right angle: below sqrt 2
-  static constexpr double kSharpTurn = 0.2;      // rad: the direction from a pin's centre to a corner, on one piece
-
-  // Whether the contact would lie beyond the same end of its edge all the while: it moves along it by no more than its
-  // point moves.
-  bool out_of_reach(std::size_t index, const Piece& p) const {
-    const ContactPair& pair = space_.pairs[index];
-    if (pair.kind == ContactKind::CornerOnCorner) return false;
-    ContactState a, b;
-    gap_at(index, p.start, &a);
-    gap_at(index, p.end, &b);
-    const double arm = std::max(a.lever.norm(), b.lever.norm());
-    const double moves = kPathOverChord * chord(p.start, p.end, arm) + p.chord_mm;
-    const double sum = a.along_mm + b.along_mm;
-    return (sum + moves) / 2 < -kContact_mm || (sum - moves) / 2 > a.extent_mm + kContact_mm;
-  }
-
-  // Where the gap falls through the floor on this piece of the flow, with the features in reach of each other.
-  double crossing(const Flow& flow, std::size_t index, const Piece& p, double floor, int depth) const {
-    // The distance to a round corner's centre is no cubic unless the corner turns little about it; but it changes by no
-    // more than the corner moves.
-    bool divide = false;
-    if (const ContactPair& pair = space_.pairs[index]; pair.kind == ContactKind::CornerOnCorner) {
-      const double moves = kPathOverChord * chord(p.start, p.end, space_.part.corners[pair.moving].at.norm());
-      if ((p.gap + p.gap_end - moves) / 2 - p.chord_mm >= floor) return kInfinity;
-      const double radius = space_.obstacles.corners[pair.fixed].radius_mm;
-      divide = moves > kSharpTurn * (radius + std::min(p.gap, p.gap_end)) && depth <= 40;
-    }
-    // The cubic's Bernstein coefficients of degree 4 bound it; what it misses the flow by, with its rate, is nothing at
-    // the ends, so about a multiple of t^2 (1 - t)^2: the middle coefficient alone feels it, by 16 / 6.
-    const double third = (p.to - p.from) / 3;
-    const double b1 = p.gap + third * p.rate, b2 = p.gap_end - third * p.rate_end;
-    const double c1 = (p.gap + 3 * b1) / 4, c2 = (b1 + b2) / 2, c3 = (3 * b2 + p.gap_end) / 4;
-    const double off = 16.0 / 6 * p.chord_mm;
-    if (!divide && std::min({p.gap, c1, c2 - off, c3, p.gap_end}) >= floor) return kInfinity;
-    if (!divide && std::max({p.gap, c1, c2 + off, c3, p.gap_end}) < floor) return kInfinity;
-    if (out_of_reach(index, p)) return kInfinity;
-    // The cubic's slope is bounded by its coefficients' differences; what it misses has slopes of about 3 chords at
-    // most.
-    const double rises = std::max({b1 - p.gap, b2 - b1, p.gap_end - b2});
-    const bool falls = !divide && (rises <= -1.1 * p.chord_mm || (rises <= kFlat_mm && p.chord_mm <= kChordError_mm));
-    if (falls && p.gap < floor) return kInfinity;  // below already, and out of reach
-    if (falls) {
-      const double target = p.gap > kContact_mm ? 0 : floor;
-      if (p.gap_end >= target) return closes(flow, index, flow.at(p.to)) ? p.to : kInfinity;
-      const auto gap_and_rate = [&](double h) {
-        const Configuration q = flow.at(h);
-        ContactState state;
-        const double gap = gap_at(index, q, &state);
-        return std::pair{gap - target, separation_speed(point_of(state), flow.tangent(q))};
-      };
-      const double at = steep_root(gap_and_rate, p.from, p.to, p.gap - target, p.gap_end - target);
-      return closes(flow, index, flow.at(at)) ? at : kInfinity;
-    }
-    if (depth > 40) return p.gap_end < floor && closes(flow, index, flow.at(p.to)) ? p.to : kInfinity;
-    const double middle = (p.from + p.to) / 2;
-    const Configuration q = flow.at(middle);
-    ContactState state;
-    gap_at(index, q, &state);
-    const double rate = separation_speed(point_of(state), flow.tangent(q));
-    const double found =
-        crossing(flow, index, {p.from, middle, p.gap, p.rate, state.gap_mm, rate, p.chord_mm / 16, p.start, q}, floor,
-                 depth + 1);
-    if (found < kInfinity) return found;
-    return crossing(flow, index, {middle, p.to, state.gap_mm, rate, p.gap_end, p.rate_end, p.chord_mm / 16, q, p.end},
-                    floor, depth + 1);
   }
 
   Leg leg_of(const Flow& flow, const Configuration& q, const std::string& event) const {
