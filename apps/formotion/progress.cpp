@@ -27,7 +27,7 @@ std::string duration(double seconds) {
 Progress::Progress(const Problem& problem, std::int64_t budget, const RunState& state, bool json)
     : objectives_(problem.objectives().begin(), problem.objectives().end()),
       budget_(budget),
-      before_(static_cast<std::int64_t>(state.evaluations().size())),
+      before_(state.spent()),
       json_(json),
       terminal_(!json && isatty(STDERR_FILENO) != 0) {}
 
@@ -37,10 +37,10 @@ void Progress::show(const RunState& state) {
   const RunProgress& now = state.history().back();
   const auto time = Clock::now();
   const double elapsed = std::chrono::duration<double>(time - begin_).count();
-  const double rate = static_cast<double>(now.evaluations - before_) / std::max(elapsed, 1e-9);
-  const double left = static_cast<double>(budget_ - now.evaluations) / std::max(rate, 1e-9);
+  const double rate = static_cast<double>(now.spent() - before_) / std::max(elapsed, 1e-9);
+  const double left = static_cast<double>(budget_ - now.spent()) / std::max(rate, 1e-9);
   if (json_) {
-    nlohmann::ordered_json line{{"evaluations", now.evaluations},
+    nlohmann::ordered_json line{{"evaluations", now.spent()},
                                 {"budget", budget_},
                                 {"per_second", rate},
                                 {"seconds_left", left},
@@ -51,9 +51,9 @@ void Progress::show(const RunState& state) {
     std::fprintf(stderr, "%s\n", line.dump().c_str());
     return;
   }
-  if (!terminal_ && time - last_ < kBetweenLines && now.evaluations < budget_) return;
+  if (!terminal_ && time - last_ < kBetweenLines && now.spent() < budget_) return;
   last_ = time;
-  std::string text = std::to_string(now.evaluations) + " of " + std::to_string(budget_) + " evaluations, " +
+  std::string text = std::to_string(now.spent()) + " of " + std::to_string(budget_) + " evaluations, " +
                      std::to_string(std::lround(rate)) + "/s, front " + std::to_string(now.front_size);
   for (std::size_t k = 0; k < now.best.size(); ++k) {
     char best[96];

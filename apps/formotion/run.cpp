@@ -26,13 +26,13 @@ int search_and_write(RunStore& store, RunState& state, const ProblemFile& file, 
   Progress progress(problem, store.identity().budget, state, options.json_log);
   SearchOptions search_options;
   search_options.budget = {store.identity().budget, store.identity().seed};
-  search_options.threads = options.threads;
   search_options.stop = &stop_asked;
   search_options.after_batch = [&](const RunState& now) { progress.show(now); };
-  const SearchEnd end = search(problem, state, &store, search_options);
+  LocalEngine engine(problem, options.threads);
+  const SearchEnd end = search(problem, state, &store, engine, search_options);
   if (end == SearchEnd::Stopped) {
-    progress.say("stopped after " + std::to_string(state.evaluations().size()) +
-                 " evaluations; go on with: formotion resume " + folder);
+    progress.say("stopped after " + std::to_string(state.spent()) + " evaluations; go on with: formotion resume " +
+                 folder);
     return kStopped;
   }
   const RunSummary run = summary(state, store.identity(), true);

@@ -47,17 +47,29 @@ const Score* RunState::find(const Candidate& candidate) const {
   return nullptr;
 }
 
-void RunState::fold(const std::vector<Trial>& trials, const std::string& provenance, std::int64_t room) {
-  for (const Trial& trial : trials) {
+void RunState::fold(const TaskResult& result, const std::string& provenance, std::int64_t room) {
+  for (const Trial& trial : result.trials) {
     if (room <= 0) return;
     if (find(trial.candidate)) continue;
     --room;
     restore({static_cast<std::int64_t>(evaluations_.size()) + 1, trial.candidate, trial.score, provenance});
   }
+  for (const StageTrial& trial : result.stages) {
+    if (room-- <= 0) return;
+    restore({static_cast<std::int64_t>(stages_.size()) + 1, trial, provenance});
+  }
 }
+
+void RunState::restore(StageRecord record) {
+  work_ += record.trial.work;
+  stages_.push_back(std::move(record));
+}
+
+void RunState::add(Finding finding) { findings_.push_back(std::move(finding)); }
 
 void RunState::restore(Evaluated evaluated) {
   index_.emplace(hash_of(evaluated.candidate), evaluations_.size());
+  work_ += evaluated.score.work;
   const auto topology = static_cast<std::size_t>(evaluated.candidate.topology);
   const std::vector<double> losses = losses_of(evaluated.score);
   if (evaluated.score.feasible) {
@@ -72,8 +84,11 @@ void RunState::restore(Evaluated evaluated) {
 }
 
 void RunState::close_batch() {
-  RunProgress progress{
-      static_cast<std::int64_t>(evaluations_.size()), static_cast<std::int64_t>(front_.members().size()), {}};
+  RunProgress progress;
+  progress.evaluations = static_cast<std::int64_t>(evaluations_.size());
+  progress.stages = static_cast<std::int64_t>(stages_.size());
+  progress.work = work_;
+  progress.front_size = static_cast<std::int64_t>(front_.members().size());
   for (std::size_t k = 0; k < objectives_.size() && !front_.members().empty(); ++k) {
     double least = front_.members().front().losses[k];
     for (const Archive::Member& member : front_.members()) least = std::min(least, member.losses[k]);

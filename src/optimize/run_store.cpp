@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kSchema = 1;  // user_version
+constexpr int kSchema = 2;  // user_version
 constexpr const char* kStoreFile = "run.sqlite";
 constexpr const char* kLockFile = "run.lock";
 constexpr long kNfs = 0x6969, kSmb = 0x517b, kCifs = 0xff534d42, kSmb2 = 0xfe534d42;
@@ -27,9 +27,15 @@ constexpr const char* kTables = R"(
   CREATE TABLE evaluations(
     number INTEGER PRIMARY KEY, topology INTEGER NOT NULL, "values" BLOB NOT NULL, feasible INTEGER NOT NULL,
     violation REAL NOT NULL, objectives BLOB NOT NULL, worst_case BLOB NOT NULL, bites TEXT, work INTEGER NOT NULL,
-    provenance INTEGER NOT NULL REFERENCES provenance(id));
+    failure INTEGER NOT NULL, failure_text TEXT NOT NULL, provenance INTEGER NOT NULL REFERENCES provenance(id));
   CREATE TABLE front(number INTEGER PRIMARY KEY REFERENCES evaluations(number));
-  CREATE TABLE batches(batch INTEGER PRIMARY KEY, evaluations INTEGER NOT NULL);
+  CREATE TABLE stages(
+    number INTEGER PRIMARY KEY, kind INTEGER NOT NULL, "values" BLOB NOT NULL, valid INTEGER NOT NULL,
+    violation REAL NOT NULL, ends BLOB NOT NULL, length_mm REAL NOT NULL, demanded BLOB NOT NULL,
+    tolerance_mm REAL NOT NULL, pass_work INTEGER NOT NULL, work INTEGER NOT NULL,
+    provenance INTEGER NOT NULL REFERENCES provenance(id));
+  CREATE TABLE findings(id INTEGER PRIMARY KEY, topic TEXT NOT NULL, subject TEXT NOT NULL, text TEXT NOT NULL);
+  CREATE TABLE batches(batch INTEGER PRIMARY KEY, evaluations INTEGER NOT NULL, stages INTEGER NOT NULL);
 )";
 
 std::string in_folder(const std::string& folder, const char* file) { return (fs::path(folder) / file).string(); }
@@ -182,6 +188,23 @@ class FolderLock {
   int file_;
 };
 
+// The ends of a stage as numbers, three a state, and back.
+std::vector<double> numbers_of(const std::vector<StageEnd>& ends) {
+  std::vector<double> numbers;
+  for (const StageEnd& end : ends) {
+    numbers.push_back(end.to);
+    numbers.push_back(end.nominal_mm);
+    numbers.push_back(end.lacking_mm);
+  }
+  return numbers;
+}
+std::vector<StageEnd> ends_of(const std::vector<double>& numbers) {
+  std::vector<StageEnd> ends;
+  for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
+    ends.push_back({static_cast<int>(numbers[i]), numbers[i + 1], numbers[i + 2]});
+  return ends;
+}
+
 void refuse_network_disk(const std::string& folder) {
   struct statfs info {};
   if (::statfs(folder.c_str(), &info) != 0) return;
@@ -200,7 +223,9 @@ struct RunStore::Impl {
   Database database;
   RunIdentity identity;
   bool complete = false;
-  std::int64_t stored_evaluations = 0, stored_batches = 0;
+  struct Stored {
+    std::int64_t evaluations = 0, stages = 0, findings = 0, batches = 0;
+  } stored;
 
   Impl(std::string where, std::unique_ptr<FolderLock> held, int flags)
       : folder(std::move(where)), lock(std::move(held)), database(in_folder(folder, kStoreFile), flags) {}
@@ -218,10 +243,11 @@ struct RunStore::Impl {
     identity = {meta["problem"], meta["problem_path"], meta["program_version"], std::stoll("0" + meta["budget"]),
                 std::stoull("0" + meta["seed"])};
     complete = meta["complete"] == "1";
-    Statement counts(database, "SELECT (SELECT COUNT(*) FROM evaluations), (SELECT COUNT(*) FROM batches)");
+    Statement counts(database,
+                     "SELECT (SELECT COUNT(*) FROM evaluations), (SELECT COUNT(*) FROM stages), "
+                     "(SELECT COUNT(*) FROM findings), (SELECT COUNT(*) FROM batches)");
     counts.step();
-    stored_evaluations = counts.integer(0);
-    stored_batches = counts.integer(1);
+    stored = {counts.integer(0), counts.integer(1), counts.integer(2), counts.integer(3)};
   }
 };
 
@@ -294,61 +320,107 @@ bool RunStore::complete() const { return impl_->complete; }
 bool RunStore::locked_by_another() const { return !impl_->lock && FolderLock::taken(impl_->folder); }
 
 void RunStore::load(RunState& state) const {
-  Statement batches(impl_->database, "SELECT evaluations FROM batches ORDER BY batch");
-  Statement rows(
-      impl_->database,
-      "SELECT number, topology, \"values\", feasible, violation, objectives, worst_case, bites, work, p.text "
-      "FROM evaluations e JOIN provenance p ON p.id = e.provenance ORDER BY number");
+  const Database& database = impl_->database;
+  const StoreError missing(database.path() + ": evaluations are missing");
+  Statement batches(database, "SELECT evaluations, stages FROM batches ORDER BY batch");
+  Statement rows(database,
+                 "SELECT number, topology, \"values\", feasible, violation, objectives, worst_case, bites, work, "
+                 "failure, failure_text, p.text FROM evaluations e JOIN provenance p ON p.id = e.provenance "
+                 "ORDER BY number");
+  Statement stages(database,
+                   "SELECT number, kind, \"values\", valid, violation, ends, length_mm, demanded, tolerance_mm, "
+                   "pass_work, work, p.text FROM stages s JOIN provenance p ON p.id = s.provenance ORDER BY number");
   while (batches.step()) {
-    const std::int64_t until = batches.integer(0);
-    while (static_cast<std::int64_t>(state.evaluations().size()) < until) {
-      if (!rows.step()) throw StoreError(impl_->database.path() + ": evaluations are missing");
+    while (static_cast<std::int64_t>(state.evaluations().size()) < batches.integer(0)) {
+      if (!rows.step()) throw missing;
       Evaluated e;
       e.number = rows.integer(0);
-      if (e.number != static_cast<std::int64_t>(state.evaluations().size()) + 1) {
-        throw StoreError(impl_->database.path() + ": evaluations are missing");
-      }
+      if (e.number != static_cast<std::int64_t>(state.evaluations().size()) + 1) throw missing;
       e.candidate = {static_cast<int>(rows.integer(1)), rows.numbers(2)};
       e.score = {rows.integer(3) != 0, rows.real(4), rows.numbers(5), rows.numbers(6), std::nullopt, rows.integer(8)};
       if (!rows.is_null(7)) e.score.bites = rows.text(7);
-      e.provenance = rows.text(9);
+      e.score.failure = static_cast<Failure>(rows.integer(9));
+      e.score.failure_text = rows.text(10);
+      e.provenance = rows.text(11);
       state.restore(std::move(e));
+    }
+    while (static_cast<std::int64_t>(state.stages().size()) < batches.integer(1)) {
+      if (!stages.step()) throw missing;
+      StageRecord record;
+      record.number = stages.integer(0);
+      if (record.number != static_cast<std::int64_t>(state.stages().size()) + 1) throw missing;
+      StageTrial& trial = record.trial;
+      trial.kind = static_cast<int>(stages.integer(1));
+      trial.values = stages.numbers(2);
+      trial.result = {stages.integer(3) != 0, stages.real(4), ends_of(stages.numbers(5)), stages.real(6),
+                      stages.integer(9)};
+      for (const double demanded : stages.numbers(7)) trial.demanded.push_back(demanded != 0);
+      trial.tolerance_mm = stages.real(8);
+      trial.work = stages.integer(10);
+      record.provenance = stages.text(11);
+      state.restore(std::move(record));
     }
     state.close_batch();
   }
+  Statement findings(database, "SELECT topic, subject, text FROM findings ORDER BY id");
+  while (findings.step()) state.add({findings.text(0), findings.text(1), findings.text(2)});
 }
 
 void RunStore::commit(const RunState& state, bool complete) {
   Impl& impl = *impl_;
   Transaction transaction(impl.database);
   Statement remember(impl.database, "INSERT OR IGNORE INTO provenance(text) VALUES(?)");
-  Statement insert(
-      impl.database,
-      "INSERT INTO evaluations VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?, (SELECT id FROM provenance WHERE text = ?))");
   std::string last;
-  for (auto i = static_cast<std::size_t>(impl.stored_evaluations); i < state.evaluations().size(); ++i) {
+  const auto remembered = [&](const std::string& provenance) {
+    if (provenance != last) remember.bind(1, provenance).execute();
+    last = provenance;
+  };
+  Statement insert(impl.database,
+                   "INSERT INTO evaluations VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
+                   "(SELECT id FROM provenance WHERE text = ?))");
+  for (auto i = static_cast<std::size_t>(impl.stored.evaluations); i < state.evaluations().size(); ++i) {
     const Evaluated& e = state.evaluations()[i];
-    if (e.provenance != last) remember.bind(1, e.provenance).execute();
-    last = e.provenance;
+    remembered(e.provenance);
     insert.bind(1, e.number)
         .bind(2, std::int64_t{e.candidate.topology})
         .bind(3, e.candidate.values)
         .bind(4, std::int64_t{e.score.feasible});
     insert.bind(5, e.score.violation).bind(6, e.score.objectives).bind(7, e.score.worst_case);
     e.score.bites ? insert.bind(8, *e.score.bites) : insert.bind_null(8);
-    insert.bind(9, e.score.work).bind(10, e.provenance).execute();
+    insert.bind(9, e.score.work).bind(10, static_cast<std::int64_t>(e.score.failure)).bind(11, e.score.failure_text);
+    insert.bind(12, e.provenance).execute();
   }
-  Statement batch(impl.database, "INSERT INTO batches VALUES(?, ?)");
-  for (std::int64_t b = impl.stored_batches; b < state.batches(); ++b) {
-    batch.bind(1, b).bind(2, state.history()[static_cast<std::size_t>(b)].evaluations).execute();
+  Statement stage(impl.database,
+                  "INSERT INTO stages VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, "
+                  "(SELECT id FROM provenance WHERE text = ?))");
+  for (auto i = static_cast<std::size_t>(impl.stored.stages); i < state.stages().size(); ++i) {
+    const StageRecord& record = state.stages()[i];
+    const StageTrial& trial = record.trial;
+    remembered(record.provenance);
+    stage.bind(1, record.number).bind(2, std::int64_t{trial.kind}).bind(3, trial.values);
+    stage.bind(4, std::int64_t{trial.result.valid}).bind(5, trial.result.violation);
+    stage.bind(6, numbers_of(trial.result.ends)).bind(7, trial.result.length_mm);
+    stage.bind(8, std::vector<double>(trial.demanded.begin(), trial.demanded.end())).bind(9, trial.tolerance_mm);
+    stage.bind(10, trial.result.work).bind(11, trial.work).bind(12, record.provenance).execute();
+  }
+  Statement finding(impl.database, "INSERT INTO findings(topic, subject, text) VALUES(?, ?, ?)");
+  for (auto i = static_cast<std::size_t>(impl.stored.findings); i < state.findings().size(); ++i) {
+    const Finding& f = state.findings()[i];
+    finding.bind(1, f.topic).bind(2, f.subject).bind(3, f.text).execute();
+  }
+  Statement batch(impl.database, "INSERT INTO batches VALUES(?, ?, ?)");
+  for (std::int64_t b = impl.stored.batches; b < state.batches(); ++b) {
+    const RunProgress& progress = state.history()[static_cast<std::size_t>(b)];
+    batch.bind(1, b).bind(2, progress.evaluations).bind(3, progress.stages).execute();
   }
   impl.database.run("DELETE FROM front");
   Statement member(impl.database, "INSERT INTO front VALUES(?)");
   for (const Archive::Member& m : state.front().members()) member.bind(1, m.number).execute();
   if (complete) impl.database.run("UPDATE meta SET value = '1' WHERE key = 'complete'");
   transaction.commit();
-  impl.stored_evaluations = static_cast<std::int64_t>(state.evaluations().size());
-  impl.stored_batches = state.batches();
+  impl.stored = {static_cast<std::int64_t>(state.evaluations().size()),
+                 static_cast<std::int64_t>(state.stages().size()), static_cast<std::int64_t>(state.findings().size()),
+                 state.batches()};
   impl.complete = impl.complete || complete;
 }
 

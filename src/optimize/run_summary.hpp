@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "optimize/evaluated.hpp"
@@ -9,19 +10,31 @@
 namespace formotion {
 
 struct RunProgress {
-  std::int64_t evaluations = 0;  // so far
+  std::int64_t evaluations = 0;  // designs so far
+  std::int64_t stages = 0;       // single stages so far
+  std::int64_t work = 0;         // of both, in the unit of Score::work
+  std::int64_t spent() const { return evaluations + stages; }
   std::int64_t front_size = 0;
   std::vector<double> best;  // per objective, among feasible designs; empty while there is none
 };
 
+// Something that a search found out other than designs, for the report: what it left out, or what is proved.
+struct Finding {
+  std::string topic;    // "pruned", "ranked" or "proved"
+  std::string subject;  // "gap + gap"
+  std::string text;     // one sentence
+};
+
 struct RunSummary {
-  std::int64_t evaluations = 0, budget = 0, feasible = 0;
+  std::int64_t evaluations = 0, budget = 0, feasible = 0;  // evaluations: of designs and of single stages
+  std::int64_t stages = 0;                                 // those of single stages among them
   std::uint64_t seed = 0;
   std::string program_version;
   bool complete = false;
   std::vector<Evaluated> front;      // non-dominated feasible designs; if there is none, the nearest infeasible ones
   std::vector<Evaluated> sample;     // at most 3,000 of all evaluations, evenly spaced over the run
   std::vector<RunProgress> history;  // one entry a batch
+  std::vector<Finding> findings;
 };
 
 }  // namespace formotion

@@ -1,31 +1,18 @@
 #include "optimize/search.hpp"
 
-#include "optimize/executor.hpp"
-
 namespace formotion {
 namespace {
 
 constexpr int kFruitlessBatches = 3;
 constexpr std::size_t kSample = 3000;
 
-// Results of all tasks, each in its own slot.
-std::vector<std::vector<Trial>> run_tasks(const Problem& problem, const std::vector<SearchTask>& tasks,
-                                          const KnownScores& known, int threads, const std::atomic<bool>& stop) {
-  std::vector<std::vector<Trial>> results(tasks.size());
-  run_parallel(static_cast<int>(tasks.size()), threads, [&](int i) {
-    const auto at = static_cast<std::size_t>(i);
-    results[at] = run_task(problem, tasks[at], known, stop);
-  });
-  return results;
-}
-
 // How many batches at the end brought nothing new.
 int fruitless(const RunState& state) {
   const auto& history = state.history();
   int count = 0;
   for (std::size_t b = history.size(); b-- > 0 && count < kFruitlessBatches;) {
-    const std::int64_t before = b > 0 ? history[b - 1].evaluations : 0;
-    if (history[b].evaluations > before) break;
+    const std::int64_t before = b > 0 ? history[b - 1].spent() : 0;
+    if (history[b].spent() > before) break;
     ++count;
   }
   return count;
@@ -33,11 +20,12 @@ int fruitless(const RunState& state) {
 
 }  // namespace
 
-SearchEnd search(const Problem& problem, RunState& state, RunStore* store, const SearchOptions& options) {
+SearchEnd search(const Problem& problem, RunState& state, RunStore* store, Engine& engine,
+                 const SearchOptions& options) {
   static const std::atomic<bool> kNever{false};
   const std::atomic<bool>& stop = options.stop ? *options.stop : kNever;
   for (;;) {
-    const std::int64_t left = options.budget.evaluations - static_cast<std::int64_t>(state.evaluations().size());
+    const std::int64_t left = options.budget.evaluations - state.spent();
     const bool spent = left <= 0, nothing_new = fruitless(state) >= kFruitlessBatches;
     if (spent || nothing_new) {
       if (store && !store->complete()) store->commit(state, true);
@@ -45,13 +33,12 @@ SearchEnd search(const Problem& problem, RunState& state, RunStore* store, const
     }
     if (stop) return SearchEnd::Stopped;
     const std::vector<SearchTask> tasks = propose(problem, state, options.budget);
-    std::vector<std::vector<Trial>> results;
+    std::vector<TaskResult> results;
     try {
-      results = run_tasks(problem, tasks, state, options.threads, stop);
+      results = engine.run(tasks, stop);
     } catch (const SearchStopped&) { return SearchEnd::Stopped; }
     for (std::size_t i = 0; i < tasks.size(); ++i) {
-      state.fold(results[i], tasks[i].provenance,
-                 options.budget.evaluations - static_cast<std::int64_t>(state.evaluations().size()));
+      state.fold(results[i], tasks[i].provenance, options.budget.evaluations - state.spent());
     }
     state.close_batch();
     if (store) store->commit(state, false);
@@ -61,7 +48,8 @@ SearchEnd search(const Problem& problem, RunState& state, RunStore* store, const
 
 RunSummary summary(const RunState& state, const RunIdentity& identity, bool complete) {
   RunSummary run;
-  run.evaluations = static_cast<std::int64_t>(state.evaluations().size());
+  run.evaluations = state.spent();
+  run.stages = static_cast<std::int64_t>(state.stages().size());
   run.budget = identity.budget;
   run.feasible = state.feasible_count();
   run.seed = identity.seed;

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <functional>
 
+#include "optimize/engine.hpp"
 #include "optimize/proposals.hpp"
 #include "optimize/run_store.hpp"
 
@@ -11,7 +12,6 @@ namespace formotion {
 
 struct SearchOptions {
   SearchBudget budget;
-  int threads = 0;  // 0: one per core
   const std::atomic<bool>* stop = nullptr;
   std::function<void(const RunState&)> after_batch;
 };
@@ -22,10 +22,11 @@ enum class SearchEnd {
   Stopped,     // told to; the batch under way was dropped
 };
 
-// Goes on from state until the budget is spent. Deterministic for every number of threads, and for every number of
-// stops and goings-on: the next batch depends on what was folded in before alone. store may be null. Exceptions of the
+// Goes on from state until the budget is spent. Deterministic for every engine, and for every number of stops and
+// goings-on: the next batch depends on what was folded in before alone. store may be null. Exceptions of the
 // problem's score pass through; the state then holds the batches before.
-SearchEnd search(const Problem& problem, RunState& state, RunStore* store, const SearchOptions& options);
+SearchEnd search(const Problem& problem, RunState& state, RunStore* store, Engine& engine,
+                 const SearchOptions& options);
 
 RunSummary summary(const RunState& state, const RunIdentity& identity, bool complete);
 

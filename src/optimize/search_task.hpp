@@ -1,4 +1,4 @@
-// One driver's run: a pure function from a task to the candidates that it tried.
+// One driver's run: a pure function from a task to the candidates, or the stages, that it tried.
 #pragma once
 
 #include <atomic>
@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "optimize/stage_pool.hpp"
 #include "problem/problem.hpp"
 
 namespace formotion {
@@ -22,20 +23,32 @@ struct Merit {
 };
 
 enum class Driver {
-  Spread,   // low-discrepancy points, evaluated one by one
-  DirectL,  // NLopt GN_DIRECT_L: global scan, deterministic
-  Crs2,     // NLopt GN_CRS2_LM: global, from a random population
-  Sbplx,    // NLopt LN_SBPLX: local, bears jumps
+  Spread,        // low-discrepancy points, evaluated one by one
+  DirectL,       // NLopt GN_DIRECT_L: global scan, deterministic
+  Crs2,          // NLopt GN_CRS2_LM: global, from a random population
+  Sbplx,         // NLopt LN_SBPLX: local, bears jumps
+  Listed,        // given candidates, one by one
+  LeastSquares,  // Ceres: local, on residuals with derivatives
 };
 const char* name(Driver driver);
 
+// What a search for a stage minimises: of the stages that keep `keep` and lose `lose`, minus the tolerance of both, or
+// (if length_weight is positive) that and length_weight a millimetre of length.
+struct StageAim {
+  int kind = 0;
+  std::vector<int> keep, lose;  // states; both empty: any stage is of interest
+  double length_weight = 0;
+};
+
 struct SearchTask {
   Driver driver = Driver::Spread;
+  std::optional<StageAim> stage;  // then it searches a kind of stage, and topology means nothing
   int topology = 0;
   std::int64_t evaluations = 0;  // at most
   std::uint64_t seed = 0;
   std::uint64_t first_point = 0;   // Spread: the sequence's index to begin with
-  std::optional<Candidate> start;  // Sbplx
+  std::optional<Candidate> start;  // Sbplx, LeastSquares; of a stage: its values
+  std::vector<Candidate> listed;   // Listed
   double step = 0.1;               // Sbplx: first step, as a fraction of every range
   Merit merit;
   std::string provenance;
@@ -48,15 +61,13 @@ struct Trial {
 
 struct SearchStopped {};  // thrown out of a task when it was told to stop: its trials are lost
 
-// Scores that are known already; reading it must be safe on all threads.
-class KnownScores {
- public:
-  virtual ~KnownScores() = default;
-  virtual const Score* find(const Candidate& candidate) const = 0;
+struct TaskResult {
+  std::vector<Trial> trials;
+  std::vector<StageTrial> stages;  // of a task that searches stages
 };
 
-// Runs the task on this thread: its trials in their order. NLopt's random numbers are per thread and seeded here.
-std::vector<Trial> run_task(const Problem& problem, const SearchTask& task, const KnownScores& known,
-                            const std::atomic<bool>& stop);
+// Runs the task on this thread: what it tried, in that order, everything once. A pure function of problem and task.
+// NLopt's random numbers are per thread and seeded here.
+TaskResult run_task(const Problem& problem, const SearchTask& task, const std::atomic<bool>& stop);
 
 }  // namespace formotion

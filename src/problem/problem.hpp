@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -38,6 +39,15 @@ struct Objective {
   double loss(double value) const { return maximise ? -value : value; }  // to be minimised
 };
 
+// Why a candidate has no score. Infeasible ones have one; what is undecided within its limit of work is infeasible.
+enum class Failure {
+  None,
+  Error,    // scoring threw: a bug that one candidate meets
+  Crash,    // it ended the process or the worker that scored it, twice
+  TimeOut,  // a worker gave it up after the wall time that it was allowed
+  Lost,     // its worker vanished; to be tried again
+};
+
 // What one evaluation says. Values are finite always: a measure that does not exist counts as the worst one.
 struct Score {
   bool feasible = false;
@@ -45,8 +55,29 @@ struct Score {
   std::vector<double> objectives;    // nominal, in the order and sense of Problem::objectives
   std::vector<double> worst_case;    // the same at the worst of the uncertainties; empty while not computed
   std::optional<std::string> bites;  // the uncertain value that decides worst_case
-  std::int64_t work = 0;             // pose-feature sweeps done
+  std::int64_t work = 0;             // pose-feature sweeps done, or starts projected
+  Failure failure = Failure::None;   // else the rest says: infeasible, by kFailedViolation
+  std::string failure_text = {};
 };
+inline constexpr double kFailedViolation = 1e9;
+inline Score failed_score(Failure failure, std::string text, std::size_t objectives) {
+  Score score;
+  score.violation = kFailedViolation;
+  score.objectives.assign(objectives, 0);
+  score.failure = failure;
+  score.failure_text = std::move(text);
+  return score;
+}
+
+// What a problem remembers from candidate to candidate, for one driver on one thread. It saves work and never changes
+// anything else of a score.
+class Memory {
+ public:
+  virtual ~Memory() = default;
+};
+
+class StagedProblem;  // problem/staged_problem.hpp
+class SmoothProblem;  // problem/smooth_problem.hpp
 
 class Problem {
  public:
@@ -54,8 +85,13 @@ class Problem {
   virtual std::span<const Variable> variables() const = 0;
   virtual std::span<const Topology> topologies() const = 0;
   virtual std::span<const Objective> objectives() const = 0;
-  // Pure: the same candidate gives the same bits on every thread. Throws only on bugs.
-  virtual Score score(const Candidate& candidate) const = 0;
+  // Pure: the same candidate gives the same bits on every thread, but for the work that a memory saves. Throws only on
+  // bugs.
+  virtual Score score(const Candidate& candidate, Memory* memory = nullptr) const = 0;
+  virtual std::unique_ptr<Memory> memory() const { return nullptr; }
+  // The same problem as one of stages, or as one of residuals with derivatives; null where it is none.
+  virtual const StagedProblem* staged() const { return nullptr; }
+  virtual const SmoothProblem* smooth() const { return nullptr; }
 };
 
 }  // namespace formotion

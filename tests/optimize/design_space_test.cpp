@@ -14,7 +14,7 @@ class FixedProblem final : public Problem {
   std::span<const Variable> variables() const override { return variables_; }
   std::span<const Topology> topologies() const override { return topologies_; }
   std::span<const Objective> objectives() const override { return objectives_; }
-  Score score(const Candidate&) const override { return {true, 0, {1}, {}, std::nullopt, 1}; }
+  Score score(const Candidate&, Memory*) const override { return {true, 0, {1}, {}, std::nullopt, 1}; }
 
  private:
   std::vector<Variable> variables_{{"a", 2, 2, std::nullopt}, {"b", -3, 5, 4.0}};

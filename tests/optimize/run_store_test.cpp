@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "local_search.hpp"
 #include "optimize/search.hpp"
 #include "toy_problem.hpp"
 
@@ -29,7 +30,6 @@ const RunIdentity kIdentity{"{\"a\": 1}", "toy.json", "1.2.3", 3000, 4};
 SearchOptions options() {
   SearchOptions result;
   result.budget = {kIdentity.budget, kIdentity.seed};
-  result.threads = 1;
   return result;
 }
 
@@ -49,7 +49,7 @@ std::string told(const RunState& state) {
 std::string whole_run() {
   const ToyProblem problem;
   RunState state(problem);
-  search(problem, state, nullptr, options());
+  search_here(problem, state, nullptr, options());
   return told(state);
 }
 
@@ -68,7 +68,7 @@ TEST_CASE("what is committed is what is loaded, bit for bit") {
   RunState state(problem);
   {
     RunStore store = RunStore::create(folder.path, kIdentity, false);
-    search(problem, state, &store, options());
+    search_here(problem, state, &store, options());
   }
   CHECK(stored(folder.path) == told(state));
   const RunStore again = RunStore::open_for_reading(folder.path);
@@ -89,7 +89,7 @@ TEST_CASE("killed at any moment, a run goes on and ends with the same bytes: 25 
     store.load(state);
     SearchOptions how = options();
     how.after_batch = [](const RunState&) { ::usleep(1000); };
-    search(problem, state, &store, how);
+    search_here(problem, state, &store, how);
   };
   int kills = 0, with_progress = 0;
   double delay_us = 2000;
@@ -136,7 +136,7 @@ TEST_CASE("a run can be looked at while it is written, and shows whole batches")
     REQUIRE_FALSE(reader.complete());
     REQUIRE(reader.locked_by_another());
   };
-  search(problem, state, &store, how);
+  search_here(problem, state, &store, how);
 }
 
 TEST_CASE("a folder with a run is not begun again unless told to, a run that is under way never") {

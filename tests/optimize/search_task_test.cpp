@@ -8,10 +8,6 @@ using namespace formotion;
 
 namespace {
 
-struct Nothing final : KnownScores {
-  const Score* find(const Candidate&) const override { return nullptr; }
-};
-
 SearchTask task(Driver driver, std::int64_t evaluations) {
   SearchTask result;
   result.driver = driver;
@@ -30,7 +26,7 @@ TEST_CASE("no driver evaluates more than its task allows, and each comes near th
   const ToyProblem problem;
   for (const Driver driver : {Driver::Spread, Driver::DirectL, Driver::Crs2, Driver::Sbplx}) {
     for (const std::int64_t budget : {1, 20, 600}) {
-      const std::vector<Trial> trials = run_task(problem, task(driver, budget), Nothing(), kGoOn);
+      const std::vector<Trial> trials = run_task(problem, task(driver, budget), kGoOn).trials;
       CAPTURE(name(driver), budget);
       CHECK(static_cast<std::int64_t>(trials.size()) <= budget);
       double best = 0;
@@ -43,8 +39,8 @@ TEST_CASE("no driver evaluates more than its task allows, and each comes near th
 TEST_CASE("a task is a pure function: twice the same trials") {
   const ToyProblem problem;
   for (const Driver driver : {Driver::Spread, Driver::DirectL, Driver::Crs2, Driver::Sbplx}) {
-    const auto a = run_task(problem, task(driver, 300), Nothing(), kGoOn),
-               b = run_task(problem, task(driver, 300), Nothing(), kGoOn);
+    const auto a = run_task(problem, task(driver, 300), kGoOn).trials,
+               b = run_task(problem, task(driver, 300), kGoOn).trials;
     REQUIRE(a.size() == b.size());
     for (std::size_t i = 0; i < a.size(); ++i) REQUIRE(a[i].candidate.values == b[i].candidate.values);
   }
@@ -56,7 +52,7 @@ TEST_CASE("a bound on an objective is kept where it can be") {
   bounded.start = Candidate{1, {2, -0.2}};
   bounded.merit.at_most[1] = 20.1;  // the cost: y at most 0.1, where the gain is 3.6 at best
   double best = 0;
-  for (const Trial& trial : run_task(problem, bounded, Nothing(), kGoOn)) {
+  for (const Trial& trial : run_task(problem, bounded, kGoOn).trials) {
     if (trial.score.objectives[1] <= 20.1) best = std::max(best, trial.score.objectives[0]);
   }
   CHECK(best == Approx(3.6).margin(1e-5));
@@ -78,6 +74,6 @@ TEST_CASE("a task that is told to stop stops") {
   const ToyProblem problem;
   const std::atomic<bool> stop{true};
   for (const Driver driver : {Driver::Spread, Driver::DirectL, Driver::Crs2, Driver::Sbplx}) {
-    CHECK_THROWS_AS(run_task(problem, task(driver, 100), Nothing(), stop), SearchStopped);
+    CHECK_THROWS_AS(run_task(problem, task(driver, 100), stop), SearchStopped);
   }
 }

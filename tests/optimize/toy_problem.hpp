@@ -16,7 +16,7 @@ class ToyProblem final : public Problem {
   std::span<const Variable> variables() const override { return variables_; }
   std::span<const Topology> topologies() const override { return topologies_; }
   std::span<const Objective> objectives() const override { return objectives_; }
-  Score score(const Candidate& c) const override {
+  Score score(const Candidate& c, Memory* = nullptr) const override {
     ++scored;
     const double x = c.values[0];
     const double gain = c.topology == 0 ? 3 - std::abs(x - 7) : 4 - std::abs(x - 2) - std::abs(c.values[1] - 0.5);

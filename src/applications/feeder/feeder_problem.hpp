@@ -51,7 +51,7 @@ class FeederProblem final : public Problem {
   std::span<const Variable> variables() const override;
   std::span<const Topology> topologies() const override;
   std::span<const Objective> objectives() const override;
-  Score score(const Candidate& candidate) const override;
+  Score score(const Candidate& candidate, Memory* memory = nullptr) const override;
 
   const FeederSpec& spec() const;
   // Values of all the problem's variables, in order: the candidate's, and the starting values of the others.
