@@ -17,6 +17,8 @@ int run_evaluate(const DesignChoice& choice, const std::string& format) {
     return kDone;
   }
   OrderedJson json = evaluation_json(problem, chosen.topology, chosen.values, judged.evaluation);
+  if (const auto limits = feeder::uncertainty_limits(problem, chosen.topology, chosen.values))
+    json["uncertainty"] = limits_json(*limits);
   json["topology"] = chosen.topology;
   json["features"] = features_json(problem.literal_design(chosen.topology, chosen.values));
   std::cout << json.dump(2) << "\n";
@@ -31,6 +33,12 @@ int run_validate(const std::string& problem, bool folder_only) {
   }
   std::cout << problem << ": good: " << file.kind << ", " << file.feeder.part.aspects.size() << " aspects, "
             << file.feeder.designs.size() << " topologies, " << file.feeder.variables.size() << " variables\n";
+  if (!file.feeder.grammar) return kDone;
+  std::int64_t pruned = 0;
+  for (const feeder::PrunedSequences& entry : file.feeder.grammar->pruned) pruned += entry.count;
+  std::cout << "grammar: " << file.feeder.grammar->sequences << " sequences, " << pruned << " pruned\n";
+  for (const feeder::PrunedSequences& entry : file.feeder.grammar->pruned)
+    std::cout << "pruned: " << entry.count << " sequences of " << entry.pattern << ": " << entry.reason << "\n";
   return kDone;
 }
 

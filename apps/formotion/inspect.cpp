@@ -25,7 +25,12 @@ int run_status(const std::string& folder, const std::string& format) {
                    {"seed", run.seed},
                    {"feasible", run.feasible},
                    {"front", loaded.state.front().members().size()},
+                   {"failures", OrderedJson::object()},
                    {"best", OrderedJson::object()}};
+  for (const Failure failure : {Failure::Error, Failure::Crash, Failure::TimeOut}) {
+    const auto found = run.failures.find(name(failure));
+    json["failures"][name(failure)] = found == run.failures.end() ? 0 : found->second;
+  }
   if (!run.history.empty()) {
     const std::vector<double>& best = run.history.back().best;
     for (std::size_t k = 0; k < best.size(); ++k) json["best"][loaded.problem.objectives()[k].name] = best[k];
@@ -37,13 +42,48 @@ int run_status(const std::string& folder, const std::string& format) {
   std::cout << loaded.file.name << ": " << phase << ", " << run.evaluations << " of " << run.budget << " evaluations, "
             << run.feasible << " feasible, front " << loaded.state.front().members().size() << "\n";
   for (const auto& [name, value] : json["best"].items()) std::cout << "  best " << name << " " << value << "\n";
+  for (const auto& [failure, count] : run.failures)
+    std::cout << "  failed (" << failure << ") " << count << ", see " << folder << "/quarantine\n";
   if (phase == "stopped") std::cout << "  go on with: formotion resume " << folder << "\n";
   return kDone;
 }
 
-int run_report(const std::string& folder, const std::string& format) {
+namespace {
+
+// InputError unless the objectives are the same.
+ComparedRun compared_with(const LoadedRun& loaded, const std::string& folder) {
+  const LoadedRun other(folder);
+  const auto names = [](const LoadedRun& of) {
+    std::string list;
+    for (const Objective& o : of.problem.objectives()) list += (list.empty() ? "" : ", ") + o.name;
+    return list;
+  };
+  if (names(loaded) != names(other)) {
+    throw InputError({{folder, "", false, "a run with the objectives " + names(other),
+                       "one with those of the first run, " + names(loaded)}});
+  }
+  ComparedRun compared{other.file.name + " in " + folder, {}, other.run()};
+  for (const Topology& topology : other.problem.topologies()) compared.labels.push_back(topology.label);
+  return compared;
+}
+
+}  // namespace
+
+int run_report(const std::string& folder, const std::string& format, const std::string& compare) {
   const LoadedRun loaded(folder);
   const RunSummary run = loaded.run();
+  if (!compare.empty()) {
+    const ComparedRun other = compared_with(loaded, compare);
+    const OrderedJson data = report_data(loaded.file, loaded.problem, run, judged(loaded.problem, run.front), &other);
+    if (format == "json") {
+      std::cout << data.dump(1) << "\n";
+      return kDone;
+    }
+    const std::string path = (std::filesystem::path(folder) / "comparison.html").string();
+    write_file(path, report_page(data));
+    std::cout << path << "\n";
+    return kDone;
+  }
   if (format == "csv") {
     std::cout << designs_csv(loaded.problem, judged(loaded.problem, run.front));
   } else if (format == "json") {

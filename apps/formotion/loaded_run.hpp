@@ -15,7 +15,11 @@ struct LoadedRun {
         state(problem) {
     store.load(state);
   }
-  RunSummary run() const { return summary(state, store.identity(), store.complete()); }
+  RunSummary run() const {
+    RunSummary run = summary(state, store.identity(), store.complete());
+    run.stamps = store.stamps();
+    return run;
+  }
 
   RunStore store;
   ProblemFile file;

@@ -14,17 +14,7 @@
 namespace formotion {
 namespace {
 
-const std::vector<std::string> kTypes{"support", "clearance", "contacts", "motion", "project", "facets"};
-
-Configuration read_configuration(const OrderedJson& value, IssueList& issues) {
-  ObjectReader object(value, "/q", issues);
-  Configuration q;
-  q.x_mm = object.required_number("x_mm", kAny);
-  q.y_mm = object.required_number("y_mm", kAny);
-  q.theta_rad = object.required_number("theta_deg", kAny) * std::numbers::pi / 180;
-  object.finish();
-  return q;
-}
+const std::vector<std::string> kTypes{"support", "clearance", "contacts", "motion", "project", "facets", "sweep"};
 
 // A design with the worlds of its aspects, made when they are asked for.
 class Answers {
@@ -42,9 +32,11 @@ class Answers {
     }
     const std::string aspect = read_aspect(object, request, issues);
     Configuration q;
-    if (type && *type != "facets") {
+    const bool sweeps = type && *type == "sweep";
+    const SweepQuestion sweep = sweeps ? read_sweep(object, issues) : SweepQuestion{};
+    if (type && *type != "facets" && !sweeps) {
       const OrderedJson* given = object.require("q", "a configuration {\"x_mm\", \"y_mm\", \"theta_deg\"}");
-      if (given) q = read_configuration(*given, issues);
+      if (given) q = read_configuration(*given, "/q", issues);
     }
     double tolerance_mm = kTouches_mm;
     if (type && (*type == "contacts" || *type == "motion"))
@@ -52,6 +44,7 @@ class Answers {
     object.finish();
     if (!issues.issues.empty()) return {};
     if (*type == "support") return support(aspect, q);
+    if (sweeps) return sweep_answer(shape_of(aspect), sweep);
     const QueriedWorld& queried = world(aspect);
     if (*type == "clearance") return clearance_answer(queried, q);
     if (*type == "contacts") return contacts_answer(queried, q, tolerance_mm);
@@ -77,6 +70,11 @@ class Answers {
       issues.add("/aspect", "nothing", "one of " + list(names));
     }
     return named.value_or(names.front());
+  }
+
+  const feeder::AspectShape& shape_of(const std::string& aspect) const {
+    return *std::find_if(shapes_.begin(), shapes_.end(),
+                         [&](const feeder::AspectShape& shape) { return shape.name == aspect; });
   }
 
   OrderedJson support(const std::string& aspect, const Configuration& q) const {
@@ -127,6 +125,16 @@ OrderedJson answer_line(const std::string& line, Answers& answers) {
 }
 
 }  // namespace
+
+Configuration read_configuration(const OrderedJson& value, const std::string& pointer, IssueList& issues) {
+  ObjectReader object(value, pointer, issues);
+  Configuration q;
+  q.x_mm = object.required_number("x_mm", kAny);
+  q.y_mm = object.required_number("y_mm", kAny);
+  q.theta_rad = object.required_number("theta_deg", kAny) * std::numbers::pi / 180;
+  object.finish();
+  return q;
+}
 
 int run_query(const DesignChoice& choice) {
   const ChosenDesign chosen = chosen_design(choice);

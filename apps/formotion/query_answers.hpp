@@ -23,6 +23,17 @@ OrderedJson facets_answer(const QueriedWorld& queried);
 OrderedJson motion_answer(const QueriedWorld& queried, const Configuration& q, double tolerance_mm, IssueList& issues);
 OrderedJson project_answer(const QueriedWorld& queried, const Configuration& q, IssueList& issues);
 
+// A motion of the part, and the region from which it is cut.
+struct SweepQuestion {
+  std::vector<Configuration> path;
+  Loop region;
+  double precision_mm = 0;
+};
+SweepQuestion read_sweep(ObjectReader& object, IssueList& issues);
+OrderedJson sweep_answer(const feeder::AspectShape& shape, const SweepQuestion& question);
+
+Configuration read_configuration(const OrderedJson& value, const std::string& pointer, IssueList& issues);
+
 // The keys type, moving, fixed of a contact; place: on the obstacle, with the part at q.
 OrderedJson pair_json(const QueriedWorld& queried, const ContactPair& pair, const Configuration& q, const Point& place);
 OrderedJson point_json(const Point& p);

@@ -2,21 +2,46 @@
 #include <atomic>
 #include <csignal>
 #include <filesystem>
+#include <functional>
 #include <iostream>
+#include <memory>
 
+#include "cluster/work_queue_engine.hpp"
 #include "commands.hpp"
+#include "optimize/guarded_problem.hpp"
+#include "optimize/run_watch.hpp"
 #include "optimize/search.hpp"
 #include "progress.hpp"
+#include "quarantine_files.hpp"
 #include "report/run_files.hpp"
 
 namespace formotion {
 namespace {
+
+constexpr int kWorkQueuePort = 9123;  // as Work Queue's own tools have it
 
 std::atomic<bool> stop_asked{false};
 
 void on_signal(int signal) {
   stop_asked = true;
   std::signal(signal, SIG_DFL);  // a second one ends the process at once
+}
+
+std::unique_ptr<Engine> engine_for(const RunOptions& options, const Problem& guarded, const std::string& folder,
+                                   Quarantine& quarantine, const std::function<void(const Incident&)>& on_incident,
+                                   Progress& progress) {
+  if (options.engine == "local") return std::make_unique<LocalEngine>(guarded, options.threads);
+  WorkQueueOptions queue;
+  queue.program = std::filesystem::read_symlink("/proc/self/exe").string();
+  queue.problem_file = (std::filesystem::path(folder) / "problem.json").string();
+  queue.folder = folder;
+  queue.password_file = options.password_file;
+  queue.port = options.port.value_or(options.spawn_local > 0 ? 0 : kWorkQueuePort);
+  queue.spawn_local = options.spawn_local;
+  queue.chunk = options.chunk;
+  queue.candidate_seconds = options.candidate_seconds;
+  queue.say = [&progress](const std::string& text) { progress.say(text); };
+  return make_work_queue_engine(queue, quarantine, on_incident);
 }
 
 int search_and_write(RunStore& store, RunState& state, const ProblemFile& file, const feeder::FeederProblem& problem,
@@ -28,8 +53,20 @@ int search_and_write(RunStore& store, RunState& state, const ProblemFile& file, 
   search_options.budget = {store.identity().budget, store.identity().seed};
   search_options.stop = &stop_asked;
   search_options.after_batch = [&](const RunState& now) { progress.show(now); };
-  LocalEngine engine(problem, options.threads);
-  const SearchEnd end = search(problem, state, &store, engine, search_options);
+  RunWatch watch(store, folder);
+  note_fatal_signals();
+  const GuardedProblem guarded(problem, watch.quarantine, &watch.marks);
+  write_quarantine(folder, problem, watch.quarantine, state);
+  SearchEnd end;
+  {
+    const auto on_incident = [&](const Incident& incident) {
+      store.save(incident);
+      write_quarantine(folder, problem, watch.quarantine, state);
+    };
+    const auto engine = engine_for(options, guarded, folder, watch.quarantine, on_incident, progress);
+    end = search(guarded, state, &store, *engine, search_options);
+  }
+  write_quarantine(folder, problem, watch.quarantine, state);
   if (end == SearchEnd::Stopped) {
     progress.say("stopped after " + std::to_string(state.spent()) + " evaluations; go on with: formotion resume " +
                  folder);

@@ -111,6 +111,17 @@ Json violations_json(const std::vector<Violation>& violations) {
   return json;
 }
 
+Json goals_json(const std::vector<GoalAnswer>& goals) {
+  Json json = Json::array();
+  for (const GoalAnswer& goal : goals) {
+    json.push_back({{"must", goal.must},
+                    {"where", goal.where},
+                    {"asked_mm", number(goal.asked_mm)},
+                    {"got_mm", number(goal.got_mm)}});
+  }
+  return json;
+}
+
 // Neighbours share their ends bit for bit: equal numbers are written equal.
 Json outcome_map_json(const std::vector<MapInterval>& map) {
   Json json = Json::array();
@@ -126,6 +137,15 @@ Json outcome_map_json(const std::vector<MapInterval>& map) {
   return json;
 }
 
+Json limits_json(const UncertaintyLimits& limits) {
+  Json json{{"scale", number(limits.scale)}, {"alone", Json::object()}};
+  for (const AloneLimit& limit : limits.alone) {
+    json["alone"][limit.name] =
+        limit.interval ? Json{number(limit.interval->first), number(limit.interval->second)} : number(limit.half_width);
+  }
+  return json;
+}
+
 Json evaluation_json(const FeederProblem& problem, int topology, std::span<const double> values,
                      const FeederEvaluation& evaluation) {
   Json json{{"formotion", 1}, {"kind", "feeder"}, {"feasible", evaluation.feasible}};
@@ -133,17 +153,19 @@ Json evaluation_json(const FeederProblem& problem, int topology, std::span<const
   json["warnings"] = evaluation.warnings;
   json["values"] = values_json(problem, topology, values);
   json["metrics"] = metrics_json(evaluation.metrics);
-  // Without uncertainties the worst case is the nominal one; with them it is known for the intervals that are
-  // projected.
+  // Without uncertainties the worst case is the nominal one.
   json["worst_case"] = nullptr;
   if (!problem.spec().uncertainty.any()) {
     json["worst_case"] = json["metrics"];
     json["worst_case"]["bites"] = nullptr;
+    json["worst_case"]["feasible"] = evaluation.feasible;
   }
   if (evaluation.worst_case) {
     json["worst_case"] = metrics_json(*evaluation.worst_case);
     json["worst_case"]["bites"] = evaluation.bites ? Json(*evaluation.bites) : Json(nullptr);
+    json["worst_case"]["feasible"] = evaluation.robust;
   }
+  if (!evaluation.goals.empty()) json["goals"] = goals_json(evaluation.goals);
   json["goal_pose"] = evaluation.goal_pose >= 0 ? Json(evaluation.goal_pose) : Json(nullptr);
   json["poses"] = Json::array();
   for (const PoseResult& pose : evaluation.poses) json["poses"].push_back(pose_json(pose));

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "applications/feeder/feeder_problem.hpp"
+#include "applications/feeder/uncertainty_limits.hpp"
 
 namespace formotion {
 
@@ -14,6 +15,8 @@ using OrderedJson = nlohmann::ordered_json;
 OrderedJson evaluation_json(const feeder::FeederProblem& problem, int topology, std::span<const double> values,
                             const feeder::FeederEvaluation& evaluation);
 
+// What `evaluate` says of how uncertain a design's values may be: scale, alone.
+OrderedJson limits_json(const feeder::UncertaintyLimits& limits);
 OrderedJson metrics_json(const feeder::Metrics& metrics);
 OrderedJson violations_json(const std::vector<feeder::Violation>& violations);
 OrderedJson pose_json(const feeder::PoseResult& pose);

@@ -6,6 +6,8 @@
 #include <set>
 
 #include "applications/feeder/feeder_problem.hpp"
+#include "applications/feeder/grammar.hpp"
+#include "applications/feeder/inverse_goals.hpp"
 #include "io/json_document.hpp"
 #include "io/problem_reader.hpp"
 #include "io/suggestion.hpp"
@@ -121,6 +123,9 @@ void read_search(const Json* value, ProblemFile& file, IssueList& issues) {
       whole_number(object, "evaluations", 1, kMostEvaluations, issues).value_or(file.search.evaluations);
   file.search.seed = static_cast<std::uint64_t>(whole_number(object, "seed", 0, kLargestSeed, issues).value_or(1));
   file.feeder.objectives = read_objectives(object.find("objectives"), issues);
+  file.feeder.robust = object.boolean_or("robust", false);
+  if (file.feeder.robust && !file.feeder.uncertainty.any())
+    issues.add("/search/robust", "true", "something under uncertainty to be robust against");
   object.finish();
 }
 
@@ -145,8 +150,7 @@ void read_designs(ObjectReader& object, ProblemFile& file, ReadContext& context)
       context.issues.add("", count == 0 ? "no design" : "more than one of design, topologies and grammar",
                          "exactly one of design, topologies and grammar");
   }
-  if (grammar)
-    context.issues.add("/grammar", "a grammar, which this version does not search", "a design or a list of topologies");
+  if (grammar) file.feeder.grammar = read_grammar(*grammar, context);
   if (design) file.feeder.designs.push_back(read_design(*design, "/design", {}, context, context.canonical["design"]));
   if (!topologies) return;
   if (!topologies->is_array() || topologies->empty()) {
@@ -176,14 +180,20 @@ void collect_names(const Json& value, std::set<std::string>& names) {
   }
 }
 
-void check_variables_used(const Json& document, const std::vector<Variable>& variables, IssueList& issues) {
+void check_variables_used(const Json& document, const feeder::FeederSpec& spec, IssueList& issues) {
   std::set<std::string> used;
   for (const char* key : {"part", "design", "topologies"}) {
     if (document.contains(key)) collect_names(document[key], used);
   }
-  for (const Variable& variable : variables) {
-    if (is_name(variable.name) && !used.count(variable.name))
-      issues.add("/variables/" + variable.name, "a variable that nothing uses", "one that the designs or the part use");
+  std::vector<std::string> of_grammar;
+  if (spec.grammar) of_grammar = feeder::variable_names(*spec.grammar);
+  used.insert(of_grammar.begin(), of_grammar.end());
+  for (const Variable& variable : spec.variables) {
+    if (!is_name(variable.name) || used.count(variable.name)) continue;
+    const std::string guess = did_you_mean(variable.name, of_grammar);
+    issues.add("/variables/" + variable.name, "a variable that nothing uses" + guess,
+               of_grammar.empty() ? "one that the designs or the part use"
+                                  : "one of the grammar's (" + of_grammar.front() + ", ...) or of the part");
   }
 }
 
@@ -242,13 +252,23 @@ ProblemFile parse_problem(const std::string& text, const std::string& path) {
     if (part_is_good && issues.issues.size() == before) {
       if (const auto found = feeder::goal_defect(file.feeder))
         issues.add("/goal/deliver", (*goal)["deliver"].dump(), *found);
+      if (issues.issues.empty()) {
+        if (const auto found = feeder::place_references(file.feeder))
+          issues.add("/goal/facets/" + std::to_string(found->first), found->second, "a facet at the starting values");
+      }
     }
   }
   file.feeder.manufacture = read_manufacture(object.find("manufacture"), context);
   file.feeder.uncertainty = read_uncertainty(object.find("uncertainty"), context);
   read_search(object.find("search"), file, issues);
   object.finish();
-  check_variables_used(document, file.feeder.variables, issues);
+  check_variables_used(document, file.feeder, issues);
+  issues.throw_if_any();
+  if (file.feeder.grammar) {
+    if (!file.feeder.goal.facets.empty())
+      issues.add("/goal/facets", "facets on tracks of a grammar, which have none in common", "a goal without facets");
+    expand_grammar(file.feeder, issues);
+  }
   issues.throw_if_any();
   file.canonical = canonical.dump(2);
   return file;

@@ -18,8 +18,14 @@ feeder::PartSpec read_part(const nlohmann::ordered_json& value, ReadContext& con
 // features: the array of a design; canonical: the same array in the canonical document.
 feeder::DesignSpec read_features(const nlohmann::ordered_json& features, const std::string& pointer,
                                  ReadContext& context, nlohmann::ordered_json& canonical);
+// The catalogue alone; expand_grammar makes the topologies, when everything else of the problem is read and good.
+feeder::GrammarSpec read_grammar(const nlohmann::ordered_json& value, ReadContext& context);
+void expand_grammar(feeder::FeederSpec& spec, IssueList& issues);
 feeder::Environment read_environment(const nlohmann::ordered_json* value, ReadContext& context);
 feeder::Goal read_goal(const nlohmann::ordered_json& value, const feeder::PartSpec& part, ReadContext& context);
+// The goal's configurations and facets.
+void read_constraint_goals(ObjectReader& object, const feeder::PartSpec& part, feeder::Goal& goal,
+                           ReadContext& context);
 feeder::Manufacture read_manufacture(const nlohmann::ordered_json* value, ReadContext& context);
 feeder::Uncertainty read_uncertainty(const nlohmann::ordered_json* value, ReadContext& context);
 

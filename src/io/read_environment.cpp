@@ -52,6 +52,7 @@ feeder::Goal read_goal(const Json& value, const feeder::PartSpec& part, ReadCont
   goal.require_tip = object.boolean_or("require_tip", false);
   goal.within_rad = radians(object.number_or("within_deg", {0, 45, false}, 0.01));
   const Json* deliver = object.require("deliver", "a pose {\"aspect\", \"orientation_deg\"} or \"one pose\"");
+  read_constraint_goals(object, part, goal, context);
   object.finish();
   if (!deliver) return goal;
   if (deliver->is_string()) {

@@ -22,13 +22,19 @@ double radical_inverse(std::uint64_t index, int base) {
 }  // namespace
 
 DesignSpace::DesignSpace(const Problem& problem, int topology) : topology_(topology) {
-  for (const int index : problem.topologies()[static_cast<std::size_t>(topology)].variables) {
-    const Variable& variable = problem.variables()[static_cast<std::size_t>(index)];
-    if (variable.max > variable.min) free_.push_back(static_cast<int>(low_.size()));
-    low_.push_back(variable.min);
-    high_.push_back(variable.max);
-    guess_.push_back(variable.start());
-  }
+  for (const int index : problem.topologies()[static_cast<std::size_t>(topology)].variables)
+    add(problem.variables()[static_cast<std::size_t>(index)]);
+}
+
+DesignSpace::DesignSpace(std::span<const Variable> variables) {
+  for (const Variable& variable : variables) add(variable);
+}
+
+void DesignSpace::add(const Variable& variable) {
+  if (variable.max > variable.min) free_.push_back(static_cast<int>(low_.size()));
+  low_.push_back(variable.min);
+  high_.push_back(variable.max);
+  guess_.push_back(variable.start());
 }
 
 Candidate DesignSpace::at(std::span<const double> unit) const {

@@ -13,6 +13,8 @@ namespace formotion {
 class DesignSpace {
  public:
   DesignSpace(const Problem& problem, int topology);
+  // Of variables alone, as those of a kind of stage; its candidates name topology 0.
+  explicit DesignSpace(std::span<const Variable> variables);
 
   int dimensions() const { return static_cast<int>(free_.size()); }
   // unit: dimensions() numbers, clamped to [0, 1].
@@ -24,7 +26,9 @@ class DesignSpace {
   std::vector<double> spread_point(std::uint64_t index, std::uint64_t seed) const;
 
  private:
-  int topology_;
+  void add(const Variable& variable);
+
+  int topology_ = 0;
   std::vector<double> low_, high_, guess_;  // of the topology's variables
   std::vector<int> free_;                   // which of them can move
 };

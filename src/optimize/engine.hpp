@@ -2,16 +2,22 @@
 #pragma once
 
 #include <atomic>
+#include <stdexcept>
 #include <vector>
 
 #include "optimize/search_task.hpp"
 
 namespace formotion {
 
+// The engine cannot go on; the text is one line for the user. What was committed before is safe.
+struct EngineError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 class Engine {
  public:
   virtual ~Engine() = default;
-  // The results in the order of the tasks. Throws SearchStopped when told to stop.
+  // The results in the order of the tasks. Throws SearchStopped when told to stop, EngineError where it cannot go on.
   virtual std::vector<TaskResult> run(const std::vector<SearchTask>& tasks, const std::atomic<bool>& stop) = 0;
 };
 

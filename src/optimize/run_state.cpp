@@ -12,14 +12,15 @@ constexpr std::size_t kNearCapacity = 30;
 constexpr double kNearRadius = 0.1;
 constexpr std::size_t kShownInfeasible = 10;
 
-std::size_t hash_of(const Candidate& candidate) {
-  std::uint64_t hash = 0xcbf29ce484222325u ^ static_cast<std::uint64_t>(candidate.topology);  // FNV-1a over words
-  for (const double value : candidate.values) {
+std::size_t hash_of(int group, const std::vector<double>& values) {
+  std::uint64_t hash = 0xcbf29ce484222325u ^ static_cast<std::uint64_t>(group);  // FNV-1a over words
+  for (const double value : values) {
     hash = (hash ^ std::bit_cast<std::uint64_t>(value + 0.0)) * 0x100000001b3u;
     hash ^= hash >> 29;
   }
   return hash;
 }
+std::size_t hash_of(const Candidate& candidate) { return hash_of(candidate.topology, candidate.values); }
 
 std::vector<double> resolutions_of(const std::vector<Objective>& objectives) {
   std::vector<double> resolutions;
@@ -55,12 +56,24 @@ void RunState::fold(const TaskResult& result, const std::string& provenance, std
     restore({static_cast<std::int64_t>(evaluations_.size()) + 1, trial.candidate, trial.score, provenance});
   }
   for (const StageTrial& trial : result.stages) {
-    if (room-- <= 0) return;
+    if (room <= 0) return;
+    if (knows(trial)) continue;
+    --room;
     restore({static_cast<std::int64_t>(stages_.size()) + 1, trial, provenance});
   }
 }
 
+// With the same demand: another one tells something new.
+bool RunState::knows(const StageTrial& trial) const {
+  const auto [begin, end] = stage_index_.equal_range(hash_of(trial.kind, trial.values));
+  return std::any_of(begin, end, [&](const auto& entry) {
+    const StageTrial& known = stages_[entry.second].trial;
+    return known.kind == trial.kind && known.values == trial.values && known.demanded == trial.demanded;
+  });
+}
+
 void RunState::restore(StageRecord record) {
+  stage_index_.emplace(hash_of(record.trial.kind, record.trial.values), stages_.size());
   work_ += record.trial.work;
   stages_.push_back(std::move(record));
 }
@@ -76,7 +89,7 @@ void RunState::restore(Evaluated evaluated) {
     ++feasible_;
     fronts_[topology].offer(evaluated.number, losses);
     front_.offer(evaluated.number, losses);
-  } else {
+  } else if (evaluated.score.failure == Failure::None) {
     near_[topology].offer(
         {evaluated.number, spaces_[topology].unit_of(evaluated.candidate), evaluated.score.violation});
   }
@@ -94,6 +107,7 @@ void RunState::close_batch() {
     for (const Archive::Member& member : front_.members()) least = std::min(least, member.losses[k]);
     progress.best.push_back(objectives_[k].loss(least) + 0.0);
   }
+  for (const Archive::Member& member : front_.members()) progress.front.push_back(member.losses);
   history_.push_back(std::move(progress));
 }
 

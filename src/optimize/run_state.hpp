@@ -19,7 +19,7 @@ class RunState {
 
   // The score of a candidate that was evaluated, or null.
   const Score* find(const Candidate& candidate) const;
-  // Takes the results of one task in; candidates known already do not count. At most `room` new ones.
+  // Takes the results of one task in; candidates and stages known already do not count. At most `room` new ones.
   void fold(const TaskResult& result, const std::string& provenance, std::int64_t room);
   // Takes in what a store kept.
   void restore(Evaluated evaluated);
@@ -41,16 +41,18 @@ class RunState {
   const std::vector<RunProgress>& history() const { return history_; }
   std::int64_t batches() const { return static_cast<std::int64_t>(history_.size()); }
 
+  std::vector<double> losses_of(const Score& score) const;
   // The front; while nothing is feasible, the nearest designs. Ascending numbers.
   std::vector<Evaluated> best_designs() const;
 
  private:
-  std::vector<double> losses_of(const Score& score) const;
+  bool knows(const StageTrial& trial) const;
 
   std::vector<Objective> objectives_;
   std::vector<Evaluated> evaluations_;
   std::unordered_multimap<std::size_t, std::size_t> index_;  // hash of the candidate -> place in evaluations_
   std::vector<StageRecord> stages_;
+  std::unordered_multimap<std::size_t, std::size_t> stage_index_;  // the same for single stages
   std::vector<Finding> findings_;
   std::int64_t feasible_ = 0, work_ = 0;
   Archive front_;

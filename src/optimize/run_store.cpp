@@ -1,7 +1,6 @@
 #include "optimize/run_store.hpp"
 
 #include <fcntl.h>
-#include <sqlite3.h>
 #include <sys/file.h>
 #include <sys/vfs.h>
 #include <unistd.h>
@@ -10,6 +9,8 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
+
+#include "optimize/sqlite_database.hpp"
 
 namespace formotion {
 namespace {
@@ -35,131 +36,16 @@ constexpr const char* kTables = R"(
     tolerance_mm REAL NOT NULL, pass_work INTEGER NOT NULL, work INTEGER NOT NULL,
     provenance INTEGER NOT NULL REFERENCES provenance(id));
   CREATE TABLE findings(id INTEGER PRIMARY KEY, topic TEXT NOT NULL, subject TEXT NOT NULL, text TEXT NOT NULL);
+  CREATE TABLE incidents(
+    id INTEGER PRIMARY KEY, stage INTEGER NOT NULL, place INTEGER NOT NULL, "values" BLOB NOT NULL,
+    failure INTEGER NOT NULL, text TEXT NOT NULL, times INTEGER NOT NULL, UNIQUE(stage, place, "values"));
   CREATE TABLE batches(batch INTEGER PRIMARY KEY, evaluations INTEGER NOT NULL, stages INTEGER NOT NULL);
 )";
 
+// Made when the first design is verified.
+constexpr const char* kStampTable = "CREATE TABLE IF NOT EXISTS stamps(design TEXT PRIMARY KEY, text TEXT NOT NULL)";
+
 std::string in_folder(const std::string& folder, const char* file) { return (fs::path(folder) / file).string(); }
-
-// SQLite, with errors as StoreError.
-class Database {
- public:
-  Database(const std::string& path, int flags) : path_(path) {
-    sqlite3* handle = nullptr;
-    const int status = sqlite3_open_v2(path.c_str(), &handle, flags, nullptr);
-    handle_.reset(handle);
-    check(status);
-    sqlite3_busy_timeout(handle, 5000);
-  }
-
-  void check(int status) const {
-    if (status == SQLITE_OK || status == SQLITE_ROW || status == SQLITE_DONE) return;
-    std::string why = handle_ ? sqlite3_errmsg(handle_.get()) : sqlite3_errstr(status);
-    switch (status & 0xff) {
-      case SQLITE_FULL:
-        why = "the disk is full; what was committed before is safe, and resume goes on from there";
-        break;
-      case SQLITE_READONLY:
-        why = "it cannot be written to";
-        break;
-      case SQLITE_NOTADB:
-      case SQLITE_CORRUPT:
-        why = "it is damaged or no run's store (" + why + ")";
-        break;
-      default:
-        break;
-    }
-    throw StoreError(path_ + ": " + why);
-  }
-
-  void run(const std::string& sql) { check(sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr)); }
-  sqlite3* handle() const { return handle_.get(); }
-  const std::string& path() const { return path_; }
-
- private:
-  struct Close {
-    void operator()(sqlite3* handle) const { sqlite3_close_v2(handle); }
-  };
-  std::string path_;
-  std::unique_ptr<sqlite3, Close> handle_;
-};
-
-class Statement {
- public:
-  Statement(const Database& database, const char* sql) : database_(database) {
-    sqlite3_stmt* statement = nullptr;
-    database.check(sqlite3_prepare_v2(database.handle(), sql, -1, &statement, nullptr));
-    statement_.reset(statement);
-  }
-
-  Statement& bind(int at, std::int64_t value) { return checked(sqlite3_bind_int64(statement_.get(), at, value)); }
-  Statement& bind(int at, double value) { return checked(sqlite3_bind_double(statement_.get(), at, value)); }
-  Statement& bind(int at, const std::string& text) {
-    return checked(
-        sqlite3_bind_text(statement_.get(), at, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT));
-  }
-  Statement& bind(int at, const std::vector<double>& numbers) {
-    static const double kNothing = 0;
-    const double* data =
-        numbers.empty() ? &kNothing : numbers.data();  // a null pointer would be NULL, not an empty blob
-    return checked(sqlite3_bind_blob(statement_.get(), at, data, static_cast<int>(numbers.size() * sizeof(double)),
-                                     SQLITE_TRANSIENT));
-  }
-  Statement& bind_null(int at) { return checked(sqlite3_bind_null(statement_.get(), at)); }
-
-  bool step() {
-    const int status = sqlite3_step(statement_.get());
-    database_.check(status);
-    return status == SQLITE_ROW;
-  }
-  void execute() {
-    step();
-    database_.check(sqlite3_reset(statement_.get()));
-  }
-
-  std::int64_t integer(int column) const { return sqlite3_column_int64(statement_.get(), column); }
-  double real(int column) const { return sqlite3_column_double(statement_.get(), column); }
-  bool is_null(int column) const { return sqlite3_column_type(statement_.get(), column) == SQLITE_NULL; }
-  std::string text(int column) const {
-    const auto* data = reinterpret_cast<const char*>(sqlite3_column_text(statement_.get(), column));
-    return data ? std::string(data, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column)))
-                : std::string();
-  }
-  std::vector<double> numbers(int column) const {
-    const auto bytes = static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column));
-    std::vector<double> result(bytes / sizeof(double));
-    if (bytes > 0)
-      std::memcpy(result.data(), sqlite3_column_blob(statement_.get(), column), result.size() * sizeof(double));
-    return result;
-  }
-
- private:
-  struct Finalize {
-    void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
-  };
-  Statement& checked(int status) {
-    database_.check(status);
-    return *this;
-  }
-  const Database& database_;
-  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
-};
-
-// Begins now, commits when told to, rolls back otherwise.
-class Transaction {
- public:
-  explicit Transaction(Database& database) : database_(database) { database_.run("BEGIN IMMEDIATE"); }
-  ~Transaction() {
-    if (open_) sqlite3_exec(database_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
-  }
-  void commit() {
-    database_.run("COMMIT");
-    open_ = false;
-  }
-
- private:
-  Database& database_;
-  bool open_ = true;
-};
 
 // The folder's lock, held until the process ends or lets go; kernel locks vanish with a killed process.
 class FolderLock {
@@ -223,12 +109,14 @@ struct RunStore::Impl {
   Database database;
   RunIdentity identity;
   bool complete = false;
+  std::int64_t generation = 0;
+  NamedPoint at_point;
   struct Stored {
     std::int64_t evaluations = 0, stages = 0, findings = 0, batches = 0;
   } stored;
 
-  Impl(std::string where, std::unique_ptr<FolderLock> held, int flags)
-      : folder(std::move(where)), lock(std::move(held)), database(in_folder(folder, kStoreFile), flags) {}
+  Impl(std::string where, std::unique_ptr<FolderLock> held, Database::Mode mode)
+      : folder(std::move(where)), lock(std::move(held)), database(in_folder(folder, kStoreFile), mode) {}
 
   void read_meta() {
     Statement version(database, "PRAGMA user_version");
@@ -243,6 +131,7 @@ struct RunStore::Impl {
     identity = {meta["problem"], meta["problem_path"], meta["program_version"], std::stoll("0" + meta["budget"]),
                 std::stoull("0" + meta["seed"])};
     complete = meta["complete"] == "1";
+    generation = std::stoll("0" + meta["generation"]);
     Statement counts(database,
                      "SELECT (SELECT COUNT(*) FROM evaluations), (SELECT COUNT(*) FROM stages), "
                      "(SELECT COUNT(*) FROM findings), (SELECT COUNT(*) FROM batches)");
@@ -257,7 +146,8 @@ RunStore::~RunStore() = default;
 
 bool RunStore::exists(const std::string& folder) { return fs::exists(in_folder(folder, kStoreFile)); }
 
-RunStore RunStore::create(const std::string& folder, const RunIdentity& identity, bool overwrite) {
+RunStore RunStore::create(const std::string& folder, const RunIdentity& identity, bool overwrite,
+                          const NamedPoint& at_point) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw StoreError(folder + ": cannot be made: " + error.message());
@@ -268,7 +158,7 @@ RunStore RunStore::create(const std::string& folder, const RunIdentity& identity
   const std::string path = in_folder(folder, kStoreFile), fresh = path + ".new";
   for (const char* suffix : {"", "-wal", "-shm", "-journal"}) fs::remove(fresh + suffix, error);
   {
-    Database database(fresh, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+    Database database(fresh, Database::Mode::Create);
     database.run("PRAGMA synchronous = FULL");
     Transaction transaction(database);
     database.run(kTables);
@@ -279,37 +169,46 @@ RunStore RunStore::create(const std::string& folder, const RunIdentity& identity
                                                         {"program_version", identity.program_version},
                                                         {"budget", std::to_string(identity.budget)},
                                                         {"seed", std::to_string(identity.seed)},
-                                                        {"complete", "0"}};
+                                                        {"complete", "0"},
+                                                        {"generation", "0"}};
     for (const auto& [key, value] : rows) insert.bind(1, std::string(key)).bind(2, value).execute();
+    reached(at_point, "new store: before its commit");
     transaction.commit();
   }
+  reached(at_point, "new store: written");
   for (const char* suffix : {"-wal", "-shm", "-journal"}) fs::remove(path + suffix, error);
+  reached(at_point, "new store: before its rename");
   fs::rename(fresh, path, error);
   if (error) throw StoreError(path + ": cannot be put in place: " + error.message());
-  auto impl = std::make_unique<Impl>(folder, std::move(lock), SQLITE_OPEN_READWRITE);
+  reached(at_point, "new store: in place");
+  auto impl = std::make_unique<Impl>(folder, std::move(lock), Database::Mode::ReadWrite);
   impl->database.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL");
   impl->read_meta();
+  impl->at_point = at_point;
   return RunStore(std::move(impl));
 }
 
-RunStore RunStore::open_for_writing(const std::string& folder, const std::string& program_version) {
+RunStore RunStore::open_for_writing(const std::string& folder, const std::string& program_version,
+                                    const NamedPoint& at_point) {
   if (!exists(folder)) throw StoreError(folder + ": holds no run (no run.sqlite)");
   refuse_network_disk(folder);
-  auto impl = std::make_unique<Impl>(folder, std::make_unique<FolderLock>(folder), SQLITE_OPEN_READWRITE);
+  auto impl = std::make_unique<Impl>(folder, std::make_unique<FolderLock>(folder), Database::Mode::ReadWrite);
   impl->read_meta();
   if (impl->identity.program_version != program_version) {
     throw StoreError(folder + ": was begun by version " + impl->identity.program_version + ", this is " +
                      program_version + ": the same run cannot be promised");
   }
   impl->database.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL");
+  impl->at_point = at_point;
   return RunStore(std::move(impl));
 }
 
 RunStore RunStore::open_for_reading(const std::string& folder) {
   if (!exists(folder)) throw StoreError(folder + ": holds no run (no run.sqlite)");
-  // Not read-only: after a kill the first to look must be able to recover the log. SQLite itself falls back where the
-  // folder cannot be written to.
-  auto impl = std::make_unique<Impl>(folder, nullptr, SQLITE_OPEN_READWRITE);
+  // Not read-only: after a kill the first to look must be able to recover the log. Where nothing can be written and
+  // there is no log, nobody else can write either, and SQLite need not look for others.
+  const bool still = ::access(folder.c_str(), W_OK) != 0 && !fs::exists(in_folder(folder, kStoreFile) + "-wal");
+  auto impl = std::make_unique<Impl>(folder, nullptr, still ? Database::Mode::Unchanging : Database::Mode::ReadWrite);
   impl->database.run("BEGIN");  // one snapshot for all that follows, whatever a writer does
   impl->read_meta();
   return RunStore(std::move(impl));
@@ -368,7 +267,9 @@ void RunStore::load(RunState& state) const {
 
 void RunStore::commit(const RunState& state, bool complete) {
   Impl& impl = *impl_;
+  reached(impl.at_point, "commit: before it");
   Transaction transaction(impl.database);
+  reached(impl.at_point, "commit: begun");
   Statement remember(impl.database, "INSERT OR IGNORE INTO provenance(text) VALUES(?)");
   std::string last;
   const auto remembered = [&](const std::string& provenance) {
@@ -413,15 +314,70 @@ void RunStore::commit(const RunState& state, bool complete) {
     const RunProgress& progress = state.history()[static_cast<std::size_t>(b)];
     batch.bind(1, b).bind(2, progress.evaluations).bind(3, progress.stages).execute();
   }
+  reached(impl.at_point, "commit: without the front");
   impl.database.run("DELETE FROM front");
   Statement member(impl.database, "INSERT INTO front VALUES(?)");
   for (const Archive::Member& m : state.front().members()) member.bind(1, m.number).execute();
   if (complete) impl.database.run("UPDATE meta SET value = '1' WHERE key = 'complete'");
+  reached(impl.at_point, "commit: all written");
   transaction.commit();
+  reached(impl.at_point, "commit: done");
   impl.stored = {static_cast<std::int64_t>(state.evaluations().size()),
                  static_cast<std::int64_t>(state.stages().size()), static_cast<std::int64_t>(state.findings().size()),
                  state.batches()};
   impl.complete = impl.complete || complete;
+}
+
+std::int64_t RunStore::generation() const { return impl_->generation; }
+
+void RunStore::begin_generation(const Quarantine& quarantine) {
+  reached(impl_->at_point, "generation: before it");
+  Transaction transaction(impl_->database);
+  for (const Incident& incident : quarantine.incidents()) save(incident);
+  Statement next(impl_->database, "INSERT OR REPLACE INTO meta VALUES('generation', ?)");
+  next.bind(1, std::to_string(impl_->generation + 1)).execute();
+  reached(impl_->at_point, "generation: all written");
+  transaction.commit();
+  ++impl_->generation;
+  reached(impl_->at_point, "generation: done");
+}
+
+Quarantine RunStore::quarantine() const {
+  Quarantine quarantine;
+  Statement rows(impl_->database, "SELECT stage, place, \"values\", failure, text, times FROM incidents ORDER BY id");
+  while (rows.step()) {
+    quarantine.restore({{rows.integer(0) != 0, static_cast<int>(rows.integer(1)), rows.numbers(2)},
+                        static_cast<Failure>(rows.integer(3)),
+                        rows.text(4),
+                        static_cast<int>(rows.integer(5))});
+  }
+  return quarantine;
+}
+
+void RunStore::save(const Incident& incident) {
+  Statement row(impl_->database,
+                "INSERT INTO incidents(stage, place, \"values\", failure, text, times) VALUES(?, ?, ?, ?, ?, ?) "
+                "ON CONFLICT DO UPDATE SET failure = excluded.failure, text = excluded.text, times = excluded.times");
+  row.bind(1, std::int64_t{incident.subject.stage}).bind(2, std::int64_t{incident.subject.place});
+  row.bind(3, incident.subject.values).bind(4, static_cast<std::int64_t>(incident.failure)).bind(5, incident.text);
+  row.bind(6, std::int64_t{incident.times}).execute();
+}
+
+std::map<std::string, std::string> RunStore::stamps() const {
+  std::map<std::string, std::string> said;
+  Statement table(impl_->database, "SELECT 1 FROM sqlite_master WHERE name = 'stamps'");
+  if (!table.step()) return said;
+  Statement rows(impl_->database, "SELECT design, text FROM stamps");
+  while (rows.step()) said[rows.text(0)] = rows.text(1);
+  return said;
+}
+
+void RunStore::stamp(const std::map<std::string, std::string>& said) {
+  Transaction transaction(impl_->database);
+  impl_->database.run(kStampTable);
+  Statement row(impl_->database, "INSERT OR REPLACE INTO stamps VALUES(?, ?)");
+  for (const auto& [design, text] : said) row.bind(1, design).bind(2, text).execute();
+  transaction.commit();
 }
 
 }  // namespace formotion

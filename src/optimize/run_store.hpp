@@ -4,10 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
 
+#include "optimize/named_point.hpp"
+#include "optimize/quarantine.hpp"
 #include "optimize/run_state.hpp"
 
 namespace formotion {
@@ -31,9 +34,11 @@ class RunStore {
   static bool exists(const std::string& folder);
 
   // Makes folder/run.sqlite, complete or not at all (by rename). StoreError if there is one unless overwrite.
-  static RunStore create(const std::string& folder, const RunIdentity& identity, bool overwrite);
+  static RunStore create(const std::string& folder, const RunIdentity& identity, bool overwrite,
+                         const NamedPoint& at_point = {});
   // For going on: takes the folder's lock. StoreError if another process has it, or if another version wrote it.
-  static RunStore open_for_writing(const std::string& folder, const std::string& program_version);
+  static RunStore open_for_writing(const std::string& folder, const std::string& program_version,
+                                   const NamedPoint& at_point = {});
   // For looking: while another process runs it, too.
   static RunStore open_for_reading(const std::string& folder);
 
@@ -48,6 +53,17 @@ class RunStore {
   void load(RunState& state) const;
   // Everything that state has beyond what is stored, its front, and whether the search is over; in one transaction.
   void commit(const RunState& state, bool complete);
+
+  // How many processes have written to this run so far: a number for each (optimize/run_watch.hpp uses it).
+  std::int64_t generation() const;
+  // One more of them, and all incidents that are known to it, in one transaction.
+  void begin_generation(const Quarantine& quarantine);
+  Quarantine quarantine() const;
+  void save(const Incident& incident);  // new or happened again
+
+  // What later checks of designs said: JSON by the design's id. They are no part of the search.
+  std::map<std::string, std::string> stamps() const;
+  void stamp(const std::map<std::string, std::string>& said);  // in place of earlier ones of the same designs
 
  private:
   struct Impl;

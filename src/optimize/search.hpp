@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "optimize/engine.hpp"
+#include "optimize/named_point.hpp"
 #include "optimize/proposals.hpp"
 #include "optimize/run_store.hpp"
 
@@ -14,6 +15,7 @@ struct SearchOptions {
   SearchBudget budget;
   const std::atomic<bool>* stop = nullptr;
   std::function<void(const RunState&)> after_batch;
+  NamedPoint at_point;
 };
 
 enum class SearchEnd {

@@ -5,8 +5,9 @@
 #include <exception>
 #include <map>
 
-#include "optimize/design_space.hpp"
-#include "optimize/nlopt_run.hpp"
+#include "optimize/drive.hpp"
+#include "optimize/least_squares.hpp"
+#include "optimize/stage_task.hpp"
 
 namespace formotion {
 namespace {
@@ -23,12 +24,13 @@ class Recorder {
         objectives_(problem.objectives().begin(), problem.objectives().end()),
         memory_(problem.memory()) {}
 
-  double operator()(const Candidate& candidate) {
+  const Score& score(const Candidate& candidate) {
     if (stop_.load(std::memory_order_relaxed)) throw SearchStopped();
     const auto [known, is_new] = known_.try_emplace(candidate.values, trials_.size());
     if (is_new) trials_.push_back({candidate, scored(candidate)});
-    return task_.merit(trials_[known->second].score, objectives_);
+    return trials_[known->second].score;
   }
+  double operator()(const Candidate& candidate) { return task_.merit(score(candidate), objectives_); }
 
   std::vector<Trial> take() { return std::move(trials_); }
 
@@ -47,17 +49,6 @@ class Recorder {
   std::map<std::vector<double>, std::size_t> known_;  // values -> place in trials_; a task stays in one topology
   std::vector<Trial> trials_;
 };
-
-void run_nlopt(Recorder& record, const DesignSpace& space, const SearchTask& task) {
-  NloptRun run{NloptMethod::Sbplx, space.start(), task.step, task.evaluations, task.seed};
-  if (task.driver == Driver::DirectL) run.method = NloptMethod::DirectL;
-  if (task.driver == Driver::Crs2) {
-    run.method = NloptMethod::Crs2;
-    run.start = space.spread_point(task.first_point, task.seed);
-  }
-  if (task.driver == Driver::Sbplx && task.start) run.start = space.unit_of(*task.start);
-  minimise(run, [&](const std::vector<double>& unit) { return record(space.at(unit)); });
-}
 
 }  // namespace
 
@@ -90,20 +81,13 @@ double Merit::operator()(const Score& score, const std::vector<Objective>& objec
 }
 
 TaskResult run_task(const Problem& problem, const SearchTask& task, const std::atomic<bool>& stop) {
+  if (task.stage) return {{}, run_stage_task(*problem.staged(), task, stop)};
   Recorder record(problem, task, stop);
-  if (task.driver == Driver::Listed) {
-    for (const Candidate& candidate : task.listed) record(candidate);
+  if (task.driver == Driver::LeastSquares) {
+    fit(problem, task, [&](const Candidate& candidate) { return record.score(candidate); });
     return {record.take(), {}};
   }
-  const DesignSpace space(problem, task.topology);
-  if (space.dimensions() == 0) {
-    record(space.at({}));
-  } else if (task.driver == Driver::Spread) {
-    for (std::int64_t i = 0; i < task.evaluations; ++i)
-      record(space.at(space.spread_point(task.first_point + static_cast<std::uint64_t>(i), task.seed)));
-  } else {
-    run_nlopt(record, space, task);
-  }
+  drive(DesignSpace(problem, task.topology), task, [&](const Candidate& candidate) { return record(candidate); });
   return {record.take(), {}};
 }
 

@@ -48,6 +48,22 @@ enum class Failure {
   Lost,     // its worker vanished; to be tried again
 };
 
+inline const char* name(Failure failure) {
+  switch (failure) {
+    case Failure::None:
+      return "none";
+    case Failure::Error:
+      return "error";
+    case Failure::Crash:
+      return "crash";
+    case Failure::TimeOut:
+      return "time-out";
+    case Failure::Lost:
+      return "lost";
+  }
+  return "none";
+}
+
 // What one evaluation says. Values are finite always: a measure that does not exist counts as the worst one.
 struct Score {
   bool feasible = false;

@@ -63,7 +63,7 @@ struct Composition {
   int topology = 0;
   std::vector<int> ends;    // of every state: the state in which it leaves the last stage, or kLostState
   double tolerance_mm = 0;  // the least over stages; an upper bound of the track's
-  double length_mm = 0;
+  double length_mm = 0;     // the sum over stages: what stands between them comes on top
 };
 
 class StagedProblem {
@@ -91,7 +91,8 @@ class StagedProblem {
   // is not known. Tolerances change by no more than that (docs/search.md).
   virtual std::optional<double> displacement_mm(int kind, std::span<const double> half_widths) const = 0;
   // Whether the state is kept with a margin of error_mm or more when edges are off by error_mm (kept), or lost
-  // likewise. Monotone: false for one error is false for every larger one.
+  // likewise. Monotone: false for one error is false for every larger one. True for errors of 0 and less, and where the
+  // values are invalid: nothing is known there. Of passive kinds only.
   virtual bool bears(int kind, std::span<const double> values, int state, bool kept, double error_mm,
                      std::int64_t& work) const = 0;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <set>
 
 #include "applications/feeder/travel_picture.hpp"
 #include "io/feeder_json.hpp"
@@ -20,6 +21,8 @@ using namespace feeder;
 constexpr std::size_t kMostTravelNumbers = 400000;
 // Designs in one page with their configuration space, some 100 kB each; the page says so of the others.
 constexpr int kMostSpaces = 6;
+// Topologies of a problem that are all listed; of more only those of the designs shown.
+constexpr std::size_t kMostTopologiesListed = 100;
 
 Json mm(double value) { return std::isfinite(value) ? Json(std::round(value * 1e4) / 1e4 + 0.0) : Json(nullptr); }
 Json mm(const std::optional<double>& value) { return value ? mm(*value) : Json(nullptr); }
@@ -78,7 +81,23 @@ Json uncertainty_json(const Uncertainty& u) {
   return json;
 }
 
-Json problem_json(const ProblemFile& file, const FeederProblem& problem) {
+// All topologies, or of very many those of the designs shown.
+Json topologies_json(const FeederProblem& problem, const std::vector<JudgedDesign>& front) {
+  const std::span<const Topology> all = problem.topologies();
+  std::set<std::size_t> listed;
+  for (const JudgedDesign& judged : front) listed.insert(static_cast<std::size_t>(judged.design.candidate.topology));
+  for (std::size_t i = 0; i < all.size() && all.size() <= kMostTopologiesListed; ++i) listed.insert(i);
+  Json json = Json::array();
+  for (const std::size_t number : listed) {
+    Json names = Json::array();
+    for (const int index : all[number].variables)
+      names.push_back(problem.variables()[static_cast<std::size_t>(index)].name);
+    json.push_back({{"number", number}, {"label", all[number].label}, {"variables", names}});
+  }
+  return json;
+}
+
+Json problem_json(const ProblemFile& file, const FeederProblem& problem, const std::vector<JudgedDesign>& front) {
   const FeederSpec& spec = problem.spec();
   Json json{{"name", file.name}, {"slug", file.slug}, {"path", file.path}, {"kind", file.kind}};
   json["environment"] = environment_json(spec.environment);
@@ -95,12 +114,8 @@ Json problem_json(const ProblemFile& file, const FeederProblem& problem) {
     json["variables"].push_back(
         {{"name", v.name}, {"min", v.min}, {"max", v.max}, {"value", v.value ? Json(*v.value) : Json(nullptr)}});
   }
-  json["topologies"] = Json::array();
-  for (const Topology& t : problem.topologies()) {
-    Json names = Json::array();
-    for (const int index : t.variables) names.push_back(problem.variables()[static_cast<std::size_t>(index)].name);
-    json["topologies"].push_back({{"label", t.label}, {"variables", names}});
-  }
+  json["topologies"] = topologies_json(problem, front);
+  json["topology_count"] = problem.topologies().size();
   json["text"] = file.canonical;
   return json;
 }
@@ -202,7 +217,8 @@ Json scores_json(const std::vector<double>& scores) {
 // Designs in detail, and the different parts that they need.
 class DesignWriter {
  public:
-  DesignWriter(const ProblemFile& file, const FeederProblem& problem) : file_(file), problem_(problem) {}
+  DesignWriter(const ProblemFile& file, const FeederProblem& problem, const std::map<std::string, std::string>& stamps)
+      : file_(file), problem_(problem), stamps_(stamps) {}
 
   int part(std::span<const double> values, const std::vector<PosePicture>& pictures) {
     Json json = part_json(problem_, values, pictures);
@@ -224,6 +240,11 @@ class DesignWriter {
     json["provenance"] = design.provenance;
     json["objectives"] = scores_json(design.score.objectives);
     json["violation"] = fine(design.score.violation);
+    const bool uncertain = !design.score.worst_case.empty() && design.score.worst_case != design.score.objectives;
+    json["worst"] = uncertain ? scores_json(design.score.worst_case) : Json(nullptr);
+    const auto stamp = stamps_.find(design_id(design));
+    json["stamp"] = stamp == stamps_.end() ? Json(nullptr) : Json::parse(stamp->second);
+    json["uncertainty"] = evaluation.contains("uncertainty") ? evaluation["uncertainty"] : Json(nullptr);
     for (const char* key : {"feasible", "metrics", "worst_case", "violations", "warnings", "goal_pose", "poses"}) {
       json[key] = evaluation[key];
     }
@@ -257,6 +278,7 @@ class DesignWriter {
 
   const ProblemFile& file_;
   const FeederProblem& problem_;
+  const std::map<std::string, std::string>& stamps_;
   Json parts_ = Json::array();
   std::size_t travel_numbers_ = 0;
   int spaces_ = 0;
@@ -283,17 +305,24 @@ Json knee_json(const FeederProblem& problem, const RunSummary& run) {
 }  // namespace
 
 Json report_data(const ProblemFile& file, const FeederProblem& problem, const RunSummary& run,
-                 const std::vector<JudgedDesign>& front) {
+                 const std::vector<JudgedDesign>& front, const ComparedRun* other) {
   Json json{{"formotion", 1}, {"program", "formotion " + run.program_version}};
-  json["problem"] = problem_json(file, problem);
-  json["run"] = {{"evaluations", run.evaluations},
-                 {"budget", run.budget},
-                 {"feasible", run.feasible},
-                 {"seed", run.seed},
-                 {"complete", run.complete}};
-  json["history"] = Json::array();
-  for (const RunProgress& p : run.history) {
-    json["history"].push_back({{"evaluations", p.evaluations}, {"front", p.front_size}, {"best", scores_json(p.best)}});
+  json["problem"] = problem_json(file, problem, front);
+  json["run"] = {{"evaluations", run.evaluations}, {"stages", run.stages}, {"budget", run.budget},
+                 {"feasible", run.feasible},       {"seed", run.seed},     {"complete", run.complete},
+                 {"failures", run.failures}};
+  const CourseBox box = course_box(run, other);
+  json["history"] = course_json(run, box);
+  json["compared"] = compared_json(other, box);
+  json["findings"] = Json::array();
+  for (const Finding& f : run.findings)
+    json["findings"].push_back({{"topic", f.topic}, {"subject", f.subject}, {"text", f.text}});
+  if (file.feeder.grammar) {
+    for (const PrunedSequences& entry : file.feeder.grammar->pruned) {
+      json["findings"].push_back({{"topic", "pruned"},
+                                  {"subject", std::to_string(entry.count) + " sequences of " + entry.pattern},
+                                  {"text", entry.reason}});
+    }
   }
   json["sample"] = Json::array();  // [number, topology, feasible, violation, [objectives]]
   for (const Evaluated& e : run.sample) {
@@ -302,7 +331,7 @@ Json report_data(const ProblemFile& file, const FeederProblem& problem, const Ru
   }
   json["knee"] = knee_json(problem, run);
 
-  DesignWriter writer(file, problem);
+  DesignWriter writer(file, problem, run.stamps);
   std::vector<double> start;
   for (const Variable& v : problem.variables()) start.push_back(v.start());
   if (!problem.topologies().empty()) writer.part(start, travel_pictures(problem, 0, start));

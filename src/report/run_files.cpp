@@ -65,8 +65,9 @@ std::string designs_csv(const feeder::FeederProblem& problem, const std::vector<
   return text;
 }
 
-void write_file(const std::string& path, const std::string& text) {
+void write_file(const std::string& path, const std::string& text, const NamedPoint& at_point) {
   const std::string fresh = path + ".new";
+  reached(at_point, "file: before it");
   std::ofstream stream(fresh, std::ios::binary | std::ios::trunc);
   stream << text;
   stream.close();
@@ -76,26 +77,30 @@ void write_file(const std::string& path, const std::string& text) {
     fs::remove(fresh, error);
     throw StoreError(path + ": cannot be written: " + why);
   }
+  reached(at_point, "file: beside its place");
   fs::rename(fresh, path, error);
   if (error) throw StoreError(path + ": cannot be put in place: " + error.message());
+  reached(at_point, "file: in place");
 }
 
 void write_run_files(const std::string& folder, const ProblemFile& file, const feeder::FeederProblem& problem,
-                     const RunSummary& run) {
+                     const RunSummary& run, const NamedPoint& at_point) {
   const std::vector<JudgedDesign> front = judged(problem, run.front);
-  write_file((fs::path(folder) / "pareto.json").string(), pareto_json_text(file, problem, run, front));
+  write_file((fs::path(folder) / "pareto.json").string(), pareto_json_text(file, problem, run, front), at_point);
   const fs::path designs = fs::path(folder) / "designs";
   std::error_code error;
   fs::remove_all(designs, error);
+  reached(at_point, "files: old designs removed");
   fs::create_directories(designs, error);
   if (error) throw StoreError(designs.string() + ": cannot be made: " + error.message());
   for (const JudgedDesign& design : front) {
     const std::string stem = (designs / design_id(design.design)).string();
-    write_file(stem + ".json", design_json(problem, design).dump(1) + "\n");
-    write_file(stem + ".svg", design_svg(file.name, problem, design));
-    write_file(stem + ".dxf", design_dxf(file.name, problem, design));
+    write_file(stem + ".json", design_json(problem, design).dump(1) + "\n", at_point);
+    write_file(stem + ".svg", design_svg(file.name, problem, design), at_point);
+    write_file(stem + ".dxf", design_dxf(file.name, problem, design), at_point);
   }
-  write_file((fs::path(folder) / "report.html").string(), report_page(report_data(file, problem, run, front)));
+  write_file((fs::path(folder) / "report.html").string(), report_page(report_data(file, problem, run, front)),
+             at_point);
 }
 
 }  // namespace formotion

@@ -5,6 +5,7 @@
 
 #include "applications/feeder/feeder_problem.hpp"
 #include "io/problem_file.hpp"
+#include "optimize/named_point.hpp"
 #include "optimize/run_store.hpp"
 #include "optimize/run_summary.hpp"
 #include "report/design_files.hpp"
@@ -18,10 +19,10 @@ std::string pareto_json_text(const ProblemFile& file, const feeder::FeederProble
 std::string designs_csv(const feeder::FeederProblem& problem, const std::vector<JudgedDesign>& front);
 
 // Writes a file whole or not at all (a temporary beside it, then a rename). Throws StoreError.
-void write_file(const std::string& path, const std::string& text);
+void write_file(const std::string& path, const std::string& text, const NamedPoint& at_point = {});
 
 // pareto.json, report.html and designs/ID.{json,svg,dxf} of the whole front; designs of earlier ends are removed.
 void write_run_files(const std::string& folder, const ProblemFile& file, const feeder::FeederProblem& problem,
-                     const RunSummary& run);
+                     const RunSummary& run, const NamedPoint& at_point = {});
 
 }  // namespace formotion

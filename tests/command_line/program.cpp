@@ -32,11 +32,15 @@ pid_t start(const std::vector<std::string>& arguments, const std::string& in, co
   ::_exit(127);
 }
 
+Said said(int status, const Folder& folder) {
+  return {WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status), read_file(folder / "out"),
+          read_file(folder / "err")};
+}
+
 Said finish(pid_t child, const Folder& folder) {
   int status = 0;
   if (child < 0 || ::waitpid(child, &status, 0) != child) throw std::runtime_error("the program could not be run");
-  return {WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status), read_file(folder / "out"),
-          read_file(folder / "err")};
+  return said(status, folder);
 }
 
 }  // namespace
@@ -65,6 +69,27 @@ Folder::~Folder() {
   std::error_code ignored;
   fs::remove_all(path, ignored);
 }
+
+Running::Running(const std::vector<std::string>& arguments) {
+  for (const char* file : {"in", "out", "err"}) write_file(folder_ / file, "");
+  child_ = start(arguments, folder_ / "in", folder_ / "out", folder_ / "err");
+  if (child_ < 0) throw std::runtime_error("the program could not be run");
+}
+Running::~Running() {
+  if (ended()) return;
+  ::kill(child_, SIGKILL);
+  ::waitpid(child_, nullptr, 0);
+}
+bool Running::ended() {
+  int status = 0;
+  if (!status_ && ::waitpid(child_, &status, WNOHANG) == child_) status_ = status;
+  return status_.has_value();
+}
+Said Running::finish() {
+  while (!ended()) ::usleep(5000);
+  return said(*status_, folder_);
+}
+std::string Running::err() const { return read_file(folder_ / "err"); }
 
 std::string read_file(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);

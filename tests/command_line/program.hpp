@@ -1,6 +1,9 @@
 // Runs the built program as a user would, and catches what it says.
 #pragma once
 
+#include <sys/types.h>
+
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +25,24 @@ struct Folder {
   ~Folder();
   std::string operator/(const std::string& name) const { return path + "/" + name; }
   std::string path;
+};
+
+// The program beside the test, killed when this goes.
+class Running {
+ public:
+  explicit Running(const std::vector<std::string>& arguments);
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+  ~Running();
+  bool ended();
+  Said finish();            // waits for its end
+  std::string err() const;  // so far
+  pid_t pid() const { return child_; }
+
+ private:
+  Folder folder_;
+  pid_t child_;
+  std::optional<int> status_;
 };
 
 std::string read_file(const std::string& path);

@@ -223,3 +223,22 @@ TEST_CASE("questions that make no sense are errors in words, and the others are 
   }
   CHECK(answers.back().at("clearance_mm") == 3.0);
 }
+
+TEST_CASE("a sweep is what a motion leaves of a region") {
+  const Problem problem;
+  const Json path{{{"x_mm", -50}, {"y_mm", 6}, {"theta_deg", 0}}, {{"x_mm", 50}, {"y_mm", 6}, {"theta_deg", 0}}};
+  const Json region{{-10, 0}, {10, 0}, {10, 20}, {-10, 20}};
+  const Json sweep{{"id", 1}, {"type", "sweep"}, {"aspect", "up"}, {"path", path}, {"region_mm", region}};
+  const Json answer = problem.ask(sweep);
+  REQUIRE(answer.at("pieces").size() == 1);
+  double lowest = 20;
+  for (const Json& p : answer.at("polygon_mm")) lowest = std::min(lowest, p[1].get<double>());
+  CHECK(lowest >= 12);
+  CHECK(lowest <= 12 + answer.at("precision_mm").get<double>());
+  Json bad = sweep;
+  bad.erase("path");
+  CHECK(problem.ask(bad).at("error").get<std::string>().find("/path") != std::string::npos);
+  bad = sweep;
+  bad["region_mm"] = {{0, 0}, {10, 10}, {10, 0}, {0, 10}};
+  CHECK(problem.ask(bad).at("error").get<std::string>().find("/region_mm") != std::string::npos);
+}

@@ -419,6 +419,7 @@ export function makeReport() {
         ['length_mm', false],
       ].map(([name, maximise]) => ({ name, maximise, resolution: 1e-9 })),
       variables: [{ name: 'h', min: 5, max: 20, value: 10 }],
+      topology_count: 1,
       topologies: [{ label: design.label, variables: ['h'] }],
     },
     run: { evaluations: 20, budget: 20, feasible: 2, seed: 1, complete: true },

@@ -38,7 +38,11 @@ struct Run {
     run.evaluations = run.budget = count;
     run.program_version = "0";
     run.complete = true;
-    run.history = {{count, 1, std::vector<double>(problem.objectives().size(), 0.0)}};
+    RunProgress progress;
+    progress.evaluations = count;
+    progress.front_size = 1;
+    progress.best.assign(problem.objectives().size(), 0.0);
+    run.history = {progress};
   }
 
   static std::string problem_text(const std::string& name) {

@@ -1,7 +1,7 @@
 // What was asked: the part, the track, the goal, what may vary.
 
 import { h } from './dom.js';
-import { degrees, measure, percent, short } from './format.js';
+import { degrees, measure, percent, short, whole } from './format.js';
 import { aspectPictures } from './poses.js';
 
 const fact = (name, ...value) => [h('dt', null, name), h('dd', null, ...value)];
@@ -22,6 +22,7 @@ export function asked(report) {
     objectives,
     variables,
     topologies,
+    topology_count: count, // a grammar's are listed only where designs shown have them
     text,
   } = report.problem;
   const part = report.parts[0];
@@ -79,15 +80,17 @@ export function asked(report) {
             .join(', '),
         )
       : null,
-    topologies.length === 1
+    count === 1
       ? fact('Features', topologies[0].label)
       : fact(
-          `${topologies.length} choices of features`,
+          `${whole(count)} choices of features`,
           h(
             'ul',
             { class: 'inline' },
             topologies.slice(0, 12).map((t) => h('li', null, t.label)),
-            topologies.length > 12 ? h('li', { class: 'faint' }, `and ${topologies.length - 12} more`) : null,
+            count > 12
+              ? h('li', { class: 'faint' }, `and ${whole(count - Math.min(12, topologies.length))} more`)
+              : null,
           ),
         ),
   );
@@ -116,7 +119,7 @@ export function asked(report) {
         'div',
         null,
         facts,
-        details('Variables and their bounds', variablesTable(variables, topologies)),
+        details('Variables and their bounds', variablesTable(variables, topologies, count)),
         details('The problem as run (JSON)', h('pre', { class: 'json' }, pretty(text))),
       ),
     ),
@@ -140,7 +143,8 @@ function details(title, content) {
   return content && h('details', null, h('summary', null, title), content);
 }
 
-function variablesTable(variables, topologies) {
+function variablesTable(variables, topologies, count) {
+  const counted = topologies.length > 1 && topologies.length === count;
   if (variables.length === 0) return h('p', { class: 'small' }, 'None: the designs are fixed.');
   return h(
     'table',
@@ -152,7 +156,7 @@ function variablesTable(variables, topologies) {
         'tr',
         null,
         ['Variable', 'least', 'most', 'guess'].map((t, i) => h('th', { scope: 'col', class: i ? 'num' : null }, t)),
-        topologies.length > 1 ? h('th', { scope: 'col', class: 'num' }, 'used by') : null,
+        counted ? h('th', { scope: 'col', class: 'num' }, 'used by') : null,
       ),
     ),
     h(
@@ -164,7 +168,7 @@ function variablesTable(variables, topologies) {
           null,
           h('th', { scope: 'row' }, v.name),
           [v.min, v.max, v.value].map((x) => h('td', { class: 'num' }, short(x, 4))),
-          topologies.length > 1
+          counted
             ? h(
                 'td',
                 { class: 'num' },

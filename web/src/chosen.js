@@ -2,6 +2,7 @@
 
 import { h } from './dom.js';
 import { fixed, kWeak_mm, measure, mm, short, whole, withUnit } from './format.js';
+import { stampDetails, stampPill } from './stamp.js';
 import { poseTravel } from './pose_travel.js';
 import { poseCards } from './poses.js';
 import { featureTable, trackDrawing } from './track_drawing.js';
@@ -39,6 +40,8 @@ export function chosenDesign(report, state, section) {
     section.replaceChildren(
       heading(report, design),
       figures(design),
+      uncertainties(report, design),
+      stampDetails(design),
       cautions(report, design),
       h('h3', null, 'The track, seen from above'),
       h(
@@ -115,6 +118,7 @@ function heading(report, design) {
       { class: design.feasible ? 'pill feasible' : 'pill infeasible' },
       design.feasible ? '\u2713 feasible' : '\u2715 not feasible',
     ),
+    stampPill(design),
     knee ? h('span', { class: 'pill', title: report.knee.how }, '\u25c6 knee of the front') : null,
     h(
       'span',
@@ -134,8 +138,68 @@ function figures(design) {
         { title: measure(name).says },
         h('dt', null, measure(name).title),
         h('dd', { 'data-measure': name }, withUnit(name, design.metrics[name])),
+        design.worst_case && name in design.worst_case
+          ? h('dd', { class: 'worst', 'data-worst': name }, `${withUnit(name, design.worst_case[name])} at worst`)
+          : null,
       ),
     ),
+  );
+}
+
+// The uncertain values as asked for, which of them bites, and how large they could be.
+function uncertainties(report, design) {
+  const asked = report.problem.uncertainty;
+  if (!asked) return null;
+  const bearable = design.uncertainty;
+  const rows = Object.entries(asked.intervals ?? {}).concat(
+    ['outline_mm', 'com_mm', 'feature_mm'].filter((name) => asked[name] > 0).map((name) => [name, asked[name]]),
+  );
+  const text = (value) =>
+    Array.isArray(value) ? value.map((v) => short(v, 4)).join(' to ') : `\u00b1 ${short(value, 4)}`;
+  return h(
+    'div',
+    { id: 'uncertainty' },
+    h('h3', null, 'What is uncertain'),
+    h(
+      'table',
+      { class: 'plain' },
+      h(
+        'thead',
+        null,
+        h(
+          'tr',
+          null,
+          ['Value', 'asked for', 'bearable alone', ''].map((t) => h('th', { scope: 'col' }, t)),
+        ),
+      ),
+      h(
+        'tbody',
+        null,
+        rows.map(([name, value]) =>
+          h(
+            'tr',
+            null,
+            h('th', { scope: 'row' }, name),
+            h('td', null, text(value)),
+            h(
+              'td',
+              null,
+              bearable?.alone?.[name] === undefined || bearable.alone[name] === null
+                ? '\u2013'
+                : text(bearable.alone[name]),
+            ),
+            h('td', { class: 'small' }, design.worst_case?.bites === name ? 'bites first' : ''),
+          ),
+        ),
+      ),
+    ),
+    bearable?.scale === undefined || bearable.scale === null
+      ? null
+      : h(
+          'p',
+          { class: 'small' },
+          `All of them together may be ${short(bearable.scale, 3)} times as large before the design is no longer feasible.`,
+        ),
   );
 }
 
@@ -184,11 +248,11 @@ function cautions(report, design) {
         null,
         'A lost part may catch with its nose on the far edge of a void instead of falling, most of all at gaps across the whole track. Try a first part by hand.',
       ),
-      report.problem.uncertainty
+      report.problem.uncertainty && !design.worst_case
         ? h(
             'li',
             null,
-            'The worst case over the stated uncertainties is not computed; compare them with the tolerance.',
+            'The worst case over the stated uncertainties is not computed for this design; compare them with the tolerance.',
           )
         : null,
     ),

@@ -2,6 +2,8 @@
 
 import { h } from './dom.js';
 import { bare, counted, kWeak_mm, measure, whole } from './format.js';
+import { topologiesShown, topologyKey } from './topology_colours.js';
+import { stampSign } from './stamp.js';
 
 const kMeasures = ['efficiency', 'tolerance_mm', 'margin_mm', 'feed_rate_per_min', 'length_mm', 'feature_count'];
 const kOfInfeasible = ['efficiency', 'purity', 'jam_probability'];
@@ -17,7 +19,8 @@ function columnsOf(report) {
 
 export function designsTable(report, state) {
   const columns = columnsOf(report);
-  const several = report.problem.topologies.length > 1;
+  const topologies = topologiesShown(report);
+  const several = topologies.length > 1;
   const first = columns[0];
   const objective = report.problem.objectives.find((o) => o.name === first.name);
   let sort = { by: first.name, of: first.of, down: objective ? objective.maximise : false };
@@ -78,7 +81,15 @@ export function designsTable(report, state) {
         { scope: 'row' },
         design.id,
         knee ? h('span', { class: 'tag', title: report.knee.how }, 'knee') : null,
-        several ? h('span', { class: 'label' }, design.label) : null,
+        stampSign(design),
+        several
+          ? h(
+              'span',
+              { class: 'label' },
+              topologyKey(topologies.find((t) => t.topology === design.topology)),
+              design.label,
+            )
+          : null,
       ),
       columns.map((c) =>
         h(
@@ -86,6 +97,7 @@ export function designsTable(report, state) {
           { class: c.objective ? 'num objective' : 'num' },
           weak(c.name, c.of(design)),
           bare(c.name, c.of(design)),
+          atWorst(c.name, c.of(design), design.worst_case),
         ),
       ),
     );
@@ -95,6 +107,15 @@ export function designsTable(report, state) {
   function weak(name, value) {
     if (name !== 'tolerance_mm' || value === null || value >= kWeak_mm) return null;
     return h('span', { class: 'weak', title: `below ${kWeak_mm} mm: means little under vibration` }, '\u26a0 ');
+  }
+
+  function atWorst(name, nominal, worst) {
+    if (!worst || worst[name] === undefined || worst[name] === null || worst[name] === nominal) return null;
+    return h(
+      'span',
+      { class: 'worst', title: 'at the worst of the uncertain values' },
+      ` / ${bare(name, worst[name])}`,
+    );
   }
 
   function onKey(event, id) {

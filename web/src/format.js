@@ -32,6 +32,12 @@ const kMeasures = {
   },
   feature_count: { title: 'Features', unit: '', digits: 0, says: 'number of features' },
   feed_rate_per_min: { title: 'Feed rate', unit: '/min', digits: 1, says: 'parts a minute at the conveying speed' },
+  hypervolume: {
+    title: 'Hypervolume',
+    unit: '%',
+    digits: 1,
+    says: 'share of the objectives\u2019 box that the front dominates',
+  },
   violation: { title: 'Violation', unit: '', digits: 3, says: 'how far from feasible; 0 is feasible' },
   number: { title: 'Evaluation', unit: '', digits: 0, says: 'the evaluation\u2019s number in the run' },
 };
@@ -99,3 +105,6 @@ export const kWeak_mm = 0.3;
 export function counted(number, one, many) {
   return `${whole(number)} ${number === 1 ? one : many}`;
 }
+
+// Whole designs; the others of a run's evaluations are of single features.
+export const designsEvaluated = (report) => report.run.evaluations - (report.run.stages ?? 0);

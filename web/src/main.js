@@ -2,9 +2,11 @@
 
 import { asked } from './asked.js';
 import { chosenDesign } from './chosen.js';
+import { comparison } from './comparison.js';
 import { designsTable } from './designs_table.js';
 import { h } from './dom.js';
-import { counted, measure, short, whole } from './format.js';
+import { counted, designsEvaluated, measure, short, whole } from './format.js';
+import { findings } from './findings.js';
 import { history } from './history.js';
 import { pareto } from './pareto.js';
 import { makeState } from './state.js';
@@ -25,7 +27,8 @@ function firstDesign() {
 const state = makeState({ design: firstDesign(), pose: 0, brushed: null });
 
 function verdict() {
-  const { evaluations, feasible } = report.run;
+  const { feasible } = report.run;
+  const evaluations = designsEvaluated(report);
   const among = `${whole(evaluations)} evaluated ${evaluations === 1 ? 'design' : 'designs'}`;
   if (evaluations === 0) return ['Nothing has been evaluated yet.', ''];
   if (feasible === 0) {
@@ -58,7 +61,7 @@ function header() {
     h(
       'p',
       { class: 'small' },
-      `${whole(run.evaluations)} of ${whole(run.budget)} evaluations, seed ${run.seed}, ${report.program}`,
+      `${whole(run.evaluations)} of ${whole(run.budget)} evaluations${run.stages ? ` (${whole(run.stages)} of them of single features)` : ''}, seed ${run.seed}, ${report.program}`,
       run.complete
         ? ''
         : [' ', h('span', { class: 'pill infeasible' }, 'the search has not ended: resume it for the whole')],
@@ -105,15 +108,27 @@ function designsSection() {
   );
 }
 
+// Candidates without a score, by what went wrong.
+function failures(report) {
+  const found = Object.entries(report.run.failures ?? {}).filter(([, count]) => count > 0);
+  if (found.length === 0) return null;
+  return h(
+    'p',
+    { class: 'small bad', id: 'failures' },
+    `Without a score: ${found.map(([what, count]) => `${whole(count)} by ${what}`).join(', ')}; files that repeat them are in quarantine/ beside this page.`,
+  );
+}
+
 function searchSection() {
   byId('search').append(
     h('h2', { id: 'search-title' }, 'How the search went'),
     h(
       'p',
       { class: 'small' },
-      'Best value of every objective among feasible designs, against evaluations; each alone, no one design has them all.',
+      'Against evaluations: the hypervolume that the front dominates, and the best value of every objective among feasible designs; each alone, no one design has them all.',
     ),
     history(report),
+    ...[comparison(report), findings(report), failures(report)].filter(Boolean),
   );
 }
 

@@ -7,7 +7,8 @@ import { scaleLinear } from 'd3-scale';
 import { select } from 'd3-selection';
 
 import { h, onWidth, s } from './dom.js';
-import { bare, counted, measure, titled, whole, withUnit } from './format.js';
+import { bare, counted, designsEvaluated, measure, titled, whole, withUnit } from './format.js';
+import { markShape, topologiesShown, topologyKey } from './topology_colours.js';
 
 const kHeight = 400;
 const kMargin = { left: 66, right: 18, top: 18, bottom: 52 };
@@ -15,7 +16,7 @@ const kMargin = { left: 66, right: 18, top: 18, bottom: 52 };
 // What can be an axis; violation only where something is infeasible.
 export function axisNames(report) {
   const names = report.problem.objectives.map((o) => o.name);
-  if (report.run.feasible < report.run.evaluations) names.push('violation');
+  if (report.run.feasible < designsEvaluated(report)) names.push('violation');
   return [...names, 'number'];
 }
 
@@ -38,7 +39,16 @@ function valueOf(report, axis) {
   return (p) => p.objectives[k];
 }
 
+// The same at the worst of the uncertain values; what is no objective does not change.
+function worstOf(report, axis) {
+  const k = report.problem.objectives.findIndex((o) => o.name === axis);
+  return k < 0 ? valueOf(report, axis) : (d) => d.worst[k];
+}
+
 export function pareto(report, state) {
+  const topologies = topologiesShown(report);
+  const looks = new Map(topologies.map((t) => [t.topology, t]));
+  const hiddenTopologies = new Set();
   const front = new Set(report.designs.map((d) => d.number));
   const sample = report.sample
     .map(([number, topology, feasible, violation, objectives]) => ({
@@ -60,8 +70,11 @@ export function pareto(report, state) {
   const axisX = chooser('axis-x', firstX);
   const axisY = chooser('axis-y', firstY);
   const toggle = (id, on) => h('input', { type: 'checkbox', id, checked: on, onchange: () => draw() });
-  const showInfeasible = toggle('show-infeasible', report.run.feasible < report.run.evaluations);
+  const showInfeasible = toggle('show-infeasible', report.run.feasible < designsEvaluated(report));
   const showDominated = toggle('show-dominated', true);
+  const showWorst = toggle('show-worst', true);
+  const showOther = toggle('show-other', true);
+  const hasWorst = report.designs.some((d) => d.worst);
   const clear = h(
     'button',
     {
@@ -84,8 +97,22 @@ export function pareto(report, state) {
     state.set('brushed', null);
     const [x, y] = [valueOf(report, axisX.value), valueOf(report, axisY.value)];
     const shown = sample.filter((p) => (p.feasible ? showDominated.checked : showInfeasible.checked));
-    const scaleX = scaleOf([...shown, ...report.designs].map(x), [kMargin.left, px - kMargin.right]);
-    const scaleY = scaleOf([...shown, ...report.designs].map(y), [kHeight - kMargin.bottom, kMargin.top]);
+    const visible = report.designs.filter((d) => !hiddenTopologies.has(d.topology));
+    const banded = hasWorst && showWorst.checked ? visible.filter((d) => d.worst) : [];
+    const [worstX, worstY] = [worstOf(report, axisX.value), worstOf(report, axisY.value)];
+    const others =
+      report.compared && showOther.checked && axisX.value !== 'number' && axisY.value !== 'number'
+        ? report.compared.designs
+        : [];
+    const extra = (of, worst) => [...banded.map(worst), ...others.map(of)];
+    const scaleX = scaleOf(
+      [...[...shown, ...report.designs].map(x), ...extra(x, worstX)],
+      [kMargin.left, px - kMargin.right],
+    );
+    const scaleY = scaleOf(
+      [...[...shown, ...report.designs].map(y), ...extra(y, worstY)],
+      [kHeight - kMargin.bottom, kMargin.top],
+    );
     const svg = s('svg', {
       viewBox: `0 0 ${px} ${kHeight}`,
       role: 'img',
@@ -103,8 +130,12 @@ export function pareto(report, state) {
     }
     const overlay = s('g', { class: 'brush' });
     const marks = s('g', { class: 'marks' });
-    for (const design of report.designs) marks.append(mark(design, scaleX(x(design)), scaleY(y(design))));
-    svg.append(cloud, overlay, marks);
+    const bands = s('g', { class: 'bands' });
+    for (const d of banded) bands.append(band(d, [scaleX(x(d)), scaleY(y(d))], [scaleX(worstX(d)), scaleY(worstY(d))]));
+    const rivals = s('g', { class: 'rivals' });
+    for (const d of others) rivals.append(rival(d, scaleX(x(d)), scaleY(y(d))));
+    for (const design of visible) marks.append(mark(design, scaleX(x(design)), scaleY(y(design))));
+    svg.append(cloud, bands, rivals, overlay, marks);
     plot.replaceChildren(svg);
     select(overlay).call(
       brush()
@@ -164,6 +195,25 @@ export function pareto(report, state) {
     );
   }
 
+  // From the nominal values to those at the worst case.
+  function band(design, [x0, y0], [x1, y1]) {
+    return s(
+      'g',
+      { class: 'band', 'data-id': design.id, style: `color:${looks.get(design.topology).colour}` },
+      s('rect', { x: Math.min(x0, x1), y: Math.min(y0, y1), width: Math.abs(x1 - x0), height: Math.abs(y1 - y0) }),
+      s('path', { d: `M${x0},${y0}L${x1},${y1}` }),
+      s('path', { class: 'end', d: `M${x1 - 3},${y1}h6M${x1},${y1 - 3}v6` }),
+    );
+  }
+
+  function rival(design, cx, cy) {
+    return s(
+      'rect',
+      { class: 'rival', x: cx - 4, y: cy - 4, width: 8, height: 8 },
+      s('title', null, `${report.compared.name}: ${design.id} ${design.label}`),
+    );
+  }
+
   function mark(design, cx, cy) {
     const knee = design.id === report.knee?.id;
     const r = 5.5;
@@ -171,7 +221,8 @@ export function pareto(report, state) {
       ? s('path', { d: `M${cx},${cy - r}l${r},${1.8 * r}h${-2 * r}z` })
       : knee
         ? s('path', { d: `M${cx},${cy - r - 3}l${r + 3},${r + 3}l${-r - 3},${r + 3}l${-r - 3},${-r - 3}z` })
-        : s('circle', { cx, cy, r });
+        : markShape(looks.get(design.topology).shape, cx, cy, r, looks.get(design.topology).colour);
+    if (knee && design.feasible) shape.setAttribute('fill', looks.get(design.topology).colour);
     const group = s(
       'g',
       {
@@ -198,6 +249,13 @@ export function pareto(report, state) {
       ...report.problem.objectives.map((o, k) =>
         h('div', null, `${measure(o.name).title}: ${withUnit(o.name, design.objectives[k])}`),
       ),
+      design.worst
+        ? h(
+            'div',
+            { class: 'small' },
+            `at worst: ${report.problem.objectives.map((o, k) => withUnit(o.name, design.worst[k])).join(', ')}`,
+          )
+        : '',
       design.feasible ? '' : h('div', null, `violation ${bare('violation', design.violation)}`),
       design.id === report.knee?.id ? h('div', { class: 'small' }, `knee: ${report.knee.how}`) : '',
     );
@@ -226,12 +284,38 @@ export function pareto(report, state) {
     draw();
   });
 
-  const anyInfeasible = report.run.feasible < report.run.evaluations;
+  // Which topology has which mark; a click hides its designs.
+  function topologyLegend() {
+    return h(
+      'div',
+      { class: 'legend', id: 'topologies' },
+      topologies.map((t) =>
+        h(
+          'label',
+          { 'data-topology': t.topology },
+          h('input', {
+            type: 'checkbox',
+            checked: true,
+            onchange: ({ target }) => {
+              if (target.checked) hiddenTopologies.delete(t.topology);
+              else hiddenTopologies.add(t.topology);
+              draw();
+            },
+          }),
+          topologyKey(t),
+          `${t.label} (${whole(t.count)})`,
+        ),
+      ),
+    );
+  }
+
+  const anyInfeasible = report.run.feasible < designsEvaluated(report);
   return h(
     'div',
     null,
     h('div', { class: 'controls' }, h('label', null, 'Across ', axisX), h('label', null, 'Up ', axisY), clear),
     frame,
+    topologies.length > 1 ? topologyLegend() : null,
     h(
       'div',
       { class: 'legend' },
@@ -243,12 +327,24 @@ export function pareto(report, state) {
           ]
         : h('span', null, h('i', { class: 'key nearest' }), 'nearest to feasible'),
       anyInfeasible ? h('label', null, showInfeasible, h('i', { class: 'key infeasible' }), 'infeasible') : null,
+      hasWorst
+        ? h(
+            'label',
+            { title: 'from the nominal values to those at the worst of the uncertain values' },
+            showWorst,
+            h('i', { class: 'key band' }),
+            'worst case',
+          )
+        : null,
+      report.compared
+        ? h('label', null, showOther, h('i', { class: 'key rival' }), `compared: ${report.compared.name}`)
+        : null,
       h(
         'span',
         { class: 'faint' },
-        sample.length + report.designs.length < report.run.evaluations
-          ? `${counted(sample.length, 'other evaluation', 'others')} shown, a sample of ${whole(report.run.evaluations)}`
-          : `all ${whole(report.run.evaluations)} evaluations shown`,
+        sample.length + report.designs.length < designsEvaluated(report)
+          ? `${counted(sample.length, 'other evaluation', 'others')} shown, a sample of ${whole(designsEvaluated(report))}`
+          : `all ${whole(designsEvaluated(report))} evaluations shown`,
       ),
     ),
   );

@@ -48,16 +48,6 @@ double work_out(const Loop& hull, std::size_t k, double orientation, int sense, 
   return work;
 }
 
-// Whether edge `from` may be the chord of an arc with a sagitta of less than shallow_mm: length times turn / 8, by the
-// larger of the turns at its ends.
-bool is_chord(const Loop& hull, std::size_t from, double shallow_mm) {
-  const std::size_t n = hull.size();
-  const auto edge = [&](std::size_t k) -> Point { return hull[(k + 1) % n] - hull[k % n]; };
-  const auto turn = [](const Point& a, const Point& b) { return std::atan2(cross(a, b), a.dot(b)); };
-  const Point before = edge(from + n - 1), here = edge(from), after = edge(from + 1);
-  return here.norm() * std::max(turn(before, here), turn(here, after)) / 8 < shallow_mm;
-}
-
 // Poses out of which less work than shallow_mm leads are none: their basin goes to the neighbour on that side.
 // bounds[i] and bounds[i + 1] enclose poses[i].
 void give_up_shallow(std::vector<WallPose>& poses, std::vector<double>& bounds, std::vector<WaysOut>& ways,
@@ -94,6 +84,14 @@ void give_up_shallow(std::vector<WallPose>& poses, std::vector<double>& bounds, 
 }
 
 }  // namespace
+
+bool is_chord(const Loop& hull, std::size_t from, double shallow_mm) {
+  const std::size_t n = hull.size();
+  const auto edge = [&](std::size_t k) -> Point { return hull[(k + 1) % n] - hull[k % n]; };
+  const auto turn = [](const Point& a, const Point& b) { return std::atan2(cross(a, b), a.dot(b)); };
+  const Point before = edge(from + n - 1), here = edge(from), after = edge(from + 1);
+  return here.norm() * std::max(turn(before, here), turn(here, after)) / 8 < shallow_mm;
+}
 
 std::vector<WallPose> wall_poses(const Loop& points, double friction, const WallPoseOptions& options) {
   const double tolerance_mm = options.tolerance_mm;

@@ -33,6 +33,10 @@ struct WallPoseOptions {
 // settles.
 std::vector<WallPose> wall_poses(const Loop& points, double friction, const WallPoseOptions& options = {});
 
+// Whether edge `from` of a convex hull may be the chord of an arc with a sagitta of less than shallow_mm: length times
+// turn / 8, by the larger of the turns at its ends.
+bool is_chord(const Loop& hull, std::size_t from, double shallow_mm);
+
 // Poses that a rotation by 2 pi / order maps onto each other become one, of the least orientation.
 std::vector<WallPose> merged_by_symmetry(const std::vector<WallPose>& poses, int order);
 

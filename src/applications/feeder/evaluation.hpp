@@ -69,17 +69,28 @@ struct MapInterval {
   double width_rad() const;
 };
 
+// A goal on the motion constraints, and what the design makes of it.
+struct GoalAnswer {
+  std::string must;   // "free", "blocked", "supported", "unsupported", or "outward" of a facet
+  std::string where;  // which configuration or facet, in words
+  double asked_mm = 0;
+  std::optional<double> got_mm;  // none where the facet does not exist, or nothing of the part is on the track
+  double lacking_mm = 0;         // 0 iff it is met
+};
+
 struct FeederEvaluation {
   bool feasible = false;
   std::vector<Violation> violations;
   std::vector<std::string> warnings;
   Metrics metrics;
-  // At the worst of the uncertain values; none where they are not all projected. Arrivals that do not end alike for all
-  // of them count as jams.
+  // Where something is uncertain, at the worst: bounds for every member. Arrivals that do not end alike for all of them
+  // count as jams.
   std::optional<Metrics> worst_case;
-  std::optional<std::string> bites;  // the uncertain value that changes an arrival's end
+  std::optional<std::string> bites;  // the uncertain value that changes an arrival's end, or costs the most
+  bool robust = false;               // feasible as drawn, and for all uncertain values
   std::vector<PoseResult> poses;
   std::vector<MapInterval> outcome_map;  // of designs with obstacles
+  std::vector<GoalAnswer> goals;         // in the order of the goal's configurations, then its facets
   int goal_pose = -1;                    // index into poses; -1 where no pose is the goal
 };
 

@@ -22,6 +22,23 @@ std::vector<int> ascending(std::vector<int> indices) {
   return indices;
 }
 
+std::size_t corners_of(const FeatureSpec& feature) {
+  const auto* cutout = std::get_if<Cutout>(&feature.shape);
+  return cutout ? cutout->polygon_mm.size() : 0;
+}
+
+bool cutouts_differ(const std::vector<DesignSpec>& designs) {
+  std::size_t known = 0;
+  for (const DesignSpec& design : designs) {
+    for (const FeatureSpec& feature : design) {
+      const std::size_t corners = corners_of(feature);
+      if (corners != 0 && known != 0 && corners != known) return true;
+      known = std::max(known, corners);
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 std::vector<int> variables_of(const PartSpec& part) {
@@ -46,6 +63,7 @@ std::vector<int> variables_of(const FeatureSpec& feature) {
 
 std::vector<Topology> topologies_of(const FeederSpec& spec) {
   const std::vector<int> of_part = variables_of(spec.part);
+  const bool by_corners = cutouts_differ(spec.designs);
   std::vector<Topology> topologies;
   for (const DesignSpec& design : spec.designs) {
     Topology topology;
@@ -54,6 +72,8 @@ std::vector<Topology> topologies_of(const FeederSpec& spec) {
       const std::vector<int> used = variables_of(feature);
       topology.variables.insert(topology.variables.end(), used.begin(), used.end());
       topology.label += (topology.label.empty() ? "" : " + ") + type_name(feature);
+      if (const std::size_t corners = corners_of(feature); by_corners && corners != 0)
+        topology.label += "(" + std::to_string(corners) + ")";
     }
     topology.variables = ascending(std::move(topology.variables));
     topologies.push_back(std::move(topology));

@@ -88,7 +88,7 @@ struct Expressions {
 // Ascending indices of the problem's variables, each once.
 std::vector<int> variables_of(const PartSpec& part);
 std::vector<int> variables_of(const FeatureSpec& feature);
-// "balcony + cutout", with the variables of the part, too.
+// "balcony + cutout", with the variables of the part, too; "cutout(4)" where cut-outs differ in their corners.
 std::vector<Topology> topologies_of(const FeederSpec& spec);
 FeatureSpec literal(FeatureSpec feature, std::span<const double> values);
 

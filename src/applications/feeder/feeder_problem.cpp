@@ -8,11 +8,13 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "analysis/constraints/planar_support.hpp"
 #include "analysis/geometry/boolean.hpp"
+#include "applications/feeder/configuration_support.hpp"
 #include "applications/feeder/expressions.hpp"
 #include "applications/feeder/judge.hpp"
 #include "applications/feeder/pose_travel.hpp"
+#include "applications/feeder/residuals.hpp"
+#include "applications/feeder/stages.hpp"
 #include "applications/feeder/world.hpp"
 
 namespace formotion::feeder {
@@ -22,16 +24,6 @@ std::vector<double> starting_values(const std::vector<Variable>& variables) {
   std::vector<double> values;
   for (const Variable& variable : variables) values.push_back(variable.start());
   return values;
-}
-
-double objective(const Metrics& metrics, const std::string& name) {
-  if (name == "efficiency") return metrics.efficiency;
-  if (name == "tolerance_mm") return metrics.tolerance_mm.value_or(0);
-  if (name == "margin_mm") return metrics.margin_mm.value_or(0);
-  if (name == "feed_rate_per_min") return metrics.feed_rate_per_min.value_or(0);
-  if (name == "length_mm") return metrics.length_mm;
-  if (name == "feature_count") return metrics.feature_count;
-  throw std::logic_error("feeder has no objective " + name);
 }
 
 // A literal feature's numbers with the contract's names, angles in degrees.
@@ -92,15 +84,24 @@ struct FeederProblem::Model {
   std::vector<Topology> topologies;
   std::optional<PartModel> part;  // of a part whose shape does not depend on variables
   std::vector<Violation> part_defects;
+  std::optional<Spreads> spreads;  // of that part, where something is uncertain
+  std::unique_ptr<FeederResiduals> residuals;
+  std::unique_ptr<FeederStages> stages;
 
   template <class Use>
   auto with_part(std::span<const double> values, const Use& use) const {
     return part ? use(*part) : use(part_model(spec.part, spec.environment, values));
   }
-  Judged judge(int topology, std::span<const double> values, bool in_detail) const {
+  Judged judge(int topology, std::span<const double> values, bool in_detail, Memory* memory) const {
     return with_part(values, [&](const PartModel& model) {
       const std::vector<Violation> defects = part ? part_defects : defects_of(model);
-      return feeder::judge({spec, spec.designs[topology], model, defects, values}, in_detail);
+      Passages own(model);
+      Passages& passages = memory ? static_cast<Passages&>(*memory) : own;
+      std::optional<Spreads> own_spreads;
+      if (!part && spec.uncertainty.any()) own_spreads = spreads_of(model, spec.environment, spec.uncertainty);
+      const std::optional<Spreads>& uncertain = part ? spreads : own_spreads;
+      return feeder::judge({spec, spec.designs[topology], model, defects, values, uncertain ? &*uncertain : nullptr},
+                           in_detail, passages);
     });
   }
 };
@@ -110,14 +111,19 @@ FeederProblem::FeederProblem(FeederSpec spec) : model_(std::make_unique<Model>()
   if (is_literal(spec.part)) {
     model_->part = part_model(spec.part, spec.environment, {});
     model_->part_defects = defects_of(*model_->part);
+    if (spec.uncertainty.any()) model_->spreads = spreads_of(*model_->part, spec.environment, spec.uncertainty);
   }
   model_->spec = std::move(spec);
+  model_->residuals = std::make_unique<FeederResiduals>(*this);
+  if (model_->part && model_->part_defects.empty()) model_->stages = FeederStages::of(model_->spec, *model_->part);
 }
 FeederProblem::~FeederProblem() = default;
 
 std::span<const Variable> FeederProblem::variables() const { return model_->spec.variables; }
 std::span<const Topology> FeederProblem::topologies() const { return model_->topologies; }
 std::span<const Objective> FeederProblem::objectives() const { return model_->spec.objectives; }
+const StagedProblem* FeederProblem::staged() const { return model_->stages.get(); }
+const SmoothProblem* FeederProblem::smooth() const { return model_->residuals.get(); }
 const FeederSpec& FeederProblem::spec() const { return model_->spec; }
 
 std::vector<double> FeederProblem::all_values(const Candidate& candidate) const {
@@ -127,20 +133,29 @@ std::vector<double> FeederProblem::all_values(const Candidate& candidate) const 
   return values;
 }
 
-Score FeederProblem::score(const Candidate& candidate, Memory*) const {
-  const Judged judged = model_->judge(candidate.topology, all_values(candidate), false);
+std::unique_ptr<Memory> FeederProblem::memory() const {
+  return model_->part ? std::make_unique<Passages>(*model_->part) : nullptr;
+}
+
+Score FeederProblem::score(const Candidate& candidate, Memory* memory) const {
+  const Judged judged = model_->judge(candidate.topology, all_values(candidate), false, memory);
   Score score;
   score.feasible = judged.evaluation.feasible;
   score.violation = judged.violation;
   score.work = judged.work;
-  for (const Objective& o : model_->spec.objectives)
-    score.objectives.push_back(objective(judged.evaluation.metrics, o.name));
+  const FeederEvaluation& evaluation = judged.evaluation;
+  const std::optional<Metrics>& worst = evaluation.worst_case;
+  for (const Objective& o : model_->spec.objectives) {
+    score.objectives.push_back(objective(model_->spec.robust && worst ? *worst : evaluation.metrics, o.name));
+    if (worst) score.worst_case.push_back(objective(*worst, o.name));
+  }
+  score.bites = evaluation.bites;
   if (!model_->spec.uncertainty.any()) score.worst_case = score.objectives;
   return score;
 }
 
 FeederEvaluation FeederProblem::evaluate(int topology, std::span<const double> values) const {
-  return model_->judge(topology, values, true).evaluation;
+  return model_->judge(topology, values, true, nullptr).evaluation;
 }
 
 std::vector<PlacedFeature> FeederProblem::place(int topology, std::span<const double> values) const {
@@ -183,25 +198,7 @@ SupportAnswer FeederProblem::support(int topology, std::span<const double> value
         std::find_if(part.shapes.begin(), part.shapes.end(), [&](const AspectShape& s) { return s.name == aspect; });
     if (shape == part.shapes.end()) throw std::logic_error("no aspect " + aspect);
     const Layout layout = lay_out(spec.designs[topology], spec.environment, spec.manufacture, part.diameter_mm, values);
-    Track track{spec.environment.track_width_mm, {}};
-    std::vector<Loop> voids;
-    for (const LaidFeature& feature : layout.features)
-      voids.insert(voids.end(), feature.voids.begin(), feature.voids.end());
-    for (const VoidGroup& group : grouped(layout, 0)) {
-      for (const Loop& loop : group.loops) {
-        if (signed_area(loop) > 0) {
-          track.voids.push_back({loop, {}});
-        } else {  // a hole lies in the void that contains it
-          for (Polygon& polygon : track.voids) {
-            if (locate(polygon.outer, loop.front(), 0) == Side::Inside) polygon.holes.push_back(loop);
-          }
-        }
-      }
-    }
-    const Polygon placed_part = placed(shape->footprint, q.theta_rad, {q.x_mm, q.y_mm});
-    const Point supported(q.x_mm, q.y_mm - wall_shift(shape->com_height_mm, spec.environment));
-    const std::optional<double> margin = support_margin(placed_part, track, supported);
-    return SupportAnswer{margin && *margin >= kLost_mm, margin};
+    return support_at(*shape, track_of(layout, spec.environment), spec.environment, q);
   });
 }
 

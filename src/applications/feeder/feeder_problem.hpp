@@ -52,6 +52,9 @@ class FeederProblem final : public Problem {
   std::span<const Topology> topologies() const override;
   std::span<const Objective> objectives() const override;
   Score score(const Candidate& candidate, Memory* memory = nullptr) const override;
+  std::unique_ptr<Memory> memory() const override;
+  const StagedProblem* staged() const override;
+  const SmoothProblem* smooth() const override;
 
   const FeederSpec& spec() const;
   // Values of all the problem's variables, in order: the candidate's, and the starting values of the others.

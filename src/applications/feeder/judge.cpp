@@ -7,10 +7,11 @@
 #include <numbers>
 #include <sstream>
 
+#include "applications/feeder/inverse_goals.hpp"
 #include "applications/feeder/pose_travel.hpp"
 #include "applications/feeder/tolerance.hpp"
 #include "applications/feeder/turning.hpp"
-#include "applications/feeder/turning_sets.hpp"
+#include "applications/feeder/uncertainty.hpp"
 
 namespace formotion::feeder {
 namespace {
@@ -23,18 +24,16 @@ std::string degrees(double rad) {
   return out.str();
 }
 
-std::string pose_name(const PartModel& part, const StablePose& pose) {
-  return part.shapes[pose.aspect].name + " " + degrees(pose.orientation_rad) + " deg";
-}
-
 bool named_by_goal(const Goal& goal, const PartModel& part, int aspect, double orientation_rad, double within_rad) {
   const double period = 2 * std::numbers::pi / part.symmetry[aspect];
   return (goal.aspect == "any" || goal.aspect == part.shapes[aspect].name) &&
          std::abs(std::remainder(orientation_rad - goal.orientation_rad, period)) <= within_rad;
 }
 
-bool named_by_goal(const Goal& goal, const PartModel& part, const StablePose& pose) {
-  return named_by_goal(goal, part, pose.aspect, pose.orientation_rad, kSamePose_rad);
+}  // namespace
+
+std::string pose_name(const PartModel& part, const StablePose& pose) {
+  return part.shapes[pose.aspect].name + " " + degrees(pose.orientation_rad) + " deg";
 }
 
 std::string arrival_name(const PartModel& part, const TurningEvaluation& travels, std::size_t i, bool on_belt) {
@@ -43,17 +42,19 @@ std::string arrival_name(const PartModel& part, const TurningEvaluation& travels
   return "starts " + interval.aspect + " " + degrees(interval.from_rad) + " to " + degrees(interval.to_rad) + " deg";
 }
 
-// The intervals that forward projection covers, if there are some and nothing else is uncertain.
-std::optional<std::map<std::string, std::pair<double, double>>> projected_intervals(const Uncertainty& uncertainty) {
-  if (uncertainty.outline_mm > 0 || uncertainty.com_mm > 0 || uncertainty.feature_mm > 0) return std::nullopt;
-  for (const auto& [name, interval] : uncertainty.intervals) {
-    if (name != "wall_friction" && name != "drive_deg") return std::nullopt;
-  }
-  if (uncertainty.intervals.empty()) return std::nullopt;
-  return uncertainty.intervals;
+bool named_by_goal(const Goal& goal, const PartModel& part, const StablePose& pose) {
+  return named_by_goal(goal, part, pose.aspect, pose.orientation_rad, kSamePose_rad);
 }
 
-}  // namespace
+double objective(const Metrics& metrics, const std::string& name) {
+  if (name == "efficiency") return metrics.efficiency;
+  if (name == "tolerance_mm") return metrics.tolerance_mm.value_or(0);
+  if (name == "margin_mm") return metrics.margin_mm.value_or(0);
+  if (name == "feed_rate_per_min") return metrics.feed_rate_per_min.value_or(0);
+  if (name == "length_mm") return metrics.length_mm;
+  if (name == "feature_count") return metrics.feature_count;
+  throw std::logic_error("feeder has no objective " + name);
+}
 
 std::vector<Violation> defects_of(const PartModel& part) {
   std::vector<Violation> violations;
@@ -68,7 +69,7 @@ std::vector<Violation> defects_of(const PartModel& part) {
 }
 
 // One design, judged. Details (unsupported travel, sentences) cost more than the score needs.
-Judged judge(const DesignCase& design, bool in_detail) {
+Judged judge(const DesignCase& design, bool in_detail, Passages& passages) {
   const FeederSpec& spec = design.spec;
   const PartModel& model = design.part;
   Judged judged;
@@ -80,6 +81,9 @@ Judged judge(const DesignCase& design, bool in_detail) {
   result.violations.insert(result.violations.end(), design.part_defects.begin(), design.part_defects.end());
   if (spec.manufacture.min_web_mm)
     check_webs(layout, *spec.manufacture.min_web_mm, spec.environment.track_width_mm, result.violations);
+  result.goals = goal_answers(design, layout);
+  const std::vector<Violation> unmet = violations_of(result.goals);
+  result.violations.insert(result.violations.end(), unmet.begin(), unmet.end());
 
   const bool detail = in_detail || spec.goal.require_tip;
   const bool turns = has_obstacles(layout);
@@ -89,10 +93,10 @@ Judged judge(const DesignCase& design, bool in_detail) {
     judged.work = travels.projections;
     result.outcome_map = travels.map;
   } else {
-    travels.poses = travel_all(model, layout, spec.environment, detail);
+    const std::int64_t before = passages.sweeps;
+    travels.poses = travel_all(model, layout, spec.environment, detail, passages);
     travels.arrivals = travels.poses;
-    judged.work =
-        static_cast<std::int64_t>(travels.poses.size()) * std::max<std::int64_t>(1, result.metrics.feature_count);
+    judged.work = passages.sweeps - before;
   }
   for (const PoseTravel& travel : travels.poses) result.poses.push_back(travel.result);
   const std::vector<PoseTravel>& arrivals = travels.arrivals;
@@ -175,52 +179,43 @@ Judged judge(const DesignCase& design, bool in_detail) {
   for (const Violation& violation : result.violations) judged.violation += violation.by;
   if (count == 0) result.violations.push_back({"the part rests in no pose on the wall", "part", 1});
   result.feasible = result.violations.empty();
-  if (in_detail && turns) {
-    if (const auto box = projected_intervals(spec.uncertainty)) {
-      const SetEvaluation sets = arrivals_over_sets(model, layout, spec.environment, *box, travels);
-      judged.work += sets.projections;
-      Metrics worst = metrics;
-      worst.efficiency = worst.jam_probability = 0;
-      double leaves = 0;
-      for (std::size_t i = 0; i < arrivals.size(); ++i) {
-        const double prior = arrivals[i].result.prior;
-        if (sets.arrivals[i] == Outcome::Delivered) {
-          leaves += prior;
-          if (serves(arrivals[i])) worst.efficiency += prior;
-        } else if (sets.arrivals[i] == Outcome::Jammed || sets.arrivals[i] == Outcome::Ambiguous) {
-          worst.jam_probability += prior;
-        }
+  const bool tolerance_wanted = in_detail || std::any_of(spec.objectives.begin(), spec.objectives.end(),
+                                                         [](const Objective& o) { return o.name == "tolerance_mm"; });
+  if (design.spreads && count > 0) {
+    std::vector<bool> wanted(arrivals.size());
+    for (std::size_t i = 0; i < wanted.size(); ++i) wanted[i] = turns ? serves(arrivals[i]) : is_goal[i];
+    const JudgedCase as_drawn{design, layout, travels, metrics, std::move(wanted), turns};
+    if (spec.robust && !result.feasible) judged.violation += robust_shortfall(as_drawn, design.spreads->all);
+    if (in_detail || result.feasible) {
+      const WorstCase worst = worst_case(as_drawn, *design.spreads, {in_detail, tolerance_wanted});
+      judged.work += worst.work;
+      result.worst_case = worst.metrics;
+      result.bites = worst.bites;
+      result.robust = result.feasible && worst.lacking == 0;
+      if (spec.robust && result.feasible) {
+        judged.violation = worst.lacking;
+        result.violations = worst.violations;
+        result.feasible = result.robust;
       }
-      worst.purity = leaves > 0 ? std::optional<double>(worst.efficiency / leaves) : std::nullopt;
-      worst.tolerance_mm = worst.margin_mm = std::nullopt;
-      worst.feed_rate_per_min =
-          metrics.efficiency > 0 && metrics.feed_rate_per_min
-              ? std::optional<double>(*metrics.feed_rate_per_min * worst.efficiency / metrics.efficiency)
-              : std::nullopt;
-      result.worst_case = worst;
-      result.bites = sets.bites;
     }
   }
   if (in_detail) collect_warnings(travels.poses, layout, spec.environment, result.warnings);
 
-  // Invalid shapes have no tolerance; for the score's sake infeasible designs need none.
-  const bool wanted = in_detail || std::any_of(spec.objectives.begin(), spec.objectives.end(),
-                                               [](const Objective& o) { return o.name == "tolerance_mm"; });
-  if (!wanted || count == 0 || !layout.invalid.empty() || !(in_detail || result.feasible)) return judged;
+  // Invalid shapes have no tolerance; for the score's sake infeasible designs, and those that are scored at their worst
+  // case, need none.
+  if (!tolerance_wanted || count == 0 || !layout.invalid.empty()) return judged;
+  if (!in_detail && (!result.feasible || (spec.robust && design.spreads))) return judged;
   if (turns) {
     const TurningTolerance found = turning_tolerance(model, layout, spec.environment, travels);
     metrics.tolerance_mm = found.tolerance_mm;
     judged.work += found.projections;
   } else {
-    std::vector<bool> delivered(count);
-    std::vector<double> nominal(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      delivered[i] = arrivals[i].result.outcome == Outcome::Delivered;
-      nominal[i] = arrivals[i].nominal_mm;
-    }
-    const ToleranceResult found = tolerance(model, layout, delivered, nominal);
-    metrics.tolerance_mm = found.tolerance_mm;
-    judged.work += found.sweeps;
+    std::vector<PoseDemand> demands;
+    for (const PoseTravel& arrival : arrivals)
+      demands.push_back({true, arrival.result.outcome == Outcome::Delivered, arrival.nominal_mm});
+    const std::int64_t before = passages.sweeps;
+    metrics.tolerance_mm = tolerance(model, layout, demands, passages);
+    judged.work += passages.sweeps - before;
   }
   return judged;
 }

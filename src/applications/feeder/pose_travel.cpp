@@ -19,8 +19,7 @@ constexpr double kThinLip_mm = 1;  // lips thinner than this are likely not mean
 
 struct Group {
   VoidGroup voids;
-  VoidOutline outline;
-  std::optional<VoidPieces> pieces;  // made when a pose is lost there
+  std::shared_ptr<GroupPassages> passages;
 };
 
 std::string mm(double value) {
@@ -86,15 +85,16 @@ std::optional<double> drop_travel(const Tipping& tipping, double d, double h, do
 
 class Judge {
  public:
-  Judge(const PartModel& part, const Layout& layout, const Environment& environment, bool detail)
-      : part_(part), layout_(layout), environment_(environment), detail_(detail) {
-    for (VoidGroup& group : grouped(layout, part.longest_mm)) {
-      VoidOutline outline = VoidOutline::of(group.loops);
-      groups_.push_back({std::move(group), std::move(outline), std::nullopt});
+  Judge(const PartModel& part, const Layout& layout, const Environment& environment, bool detail, Passages& passages)
+      : part_(part), layout_(layout), environment_(environment), detail_(detail), sweeps_(passages.sweeps) {
+    for (VoidGroup& group : grouped_in_own_frames(layout, part.longest_mm)) {
+      auto past = passages.past(group, held_from(group.origin_mm, part, layout));
+      groups_.push_back({std::move(group), std::move(past)});
     }
   }
 
-  PoseTravel operator()(const PoseModel& pose) {
+  PoseTravel operator()(int index) {
+    const PoseModel& pose = part_.poses[index];
     PoseTravel travel;
     PoseResult& result = travel.result;
     result.aspect = part_.shapes[pose.stable.aspect].name;
@@ -102,16 +102,14 @@ class Judge {
     result.prior = pose.stable.prior;
 
     const double plain = pose.travelling.plain_margin_mm;
-    if (plain < kLost_mm) return never_stands(pose, travel);
-    const std::vector<Interval> held = held_intervals(pose, layout_);
+    if (plain < kLost_mm) return never_stands(index, travel);
     // The least margin decides what is delivered; of a lost pose the first loss decides.
     LeastMargin least;
     int least_group = -1, lost_group = -1;
     std::vector<double> lost_margin(groups_.size(), kInfinity);
     SupportLoss first;
     for (std::size_t g = 0; g < groups_.size(); ++g) {
-      const Travel past{pose.travelling, groups_[g].outline, held};
-      const LeastMargin found = least_margin(past, -kInfinity, least.margin_mm);
+      const LeastMargin& found = groups_[g].passages->least(index, sweeps_);
       if (found.margin_mm < least.margin_mm) {
         least = found;
         least_group = static_cast<int>(g);
@@ -119,7 +117,7 @@ class Judge {
       // A rail may let go of a pose over nothing at all: a loss without a margin.
       const bool lost = found.margin_mm < kLost_mm || found.unsupported;
       if (!lost || lost_group >= 0) continue;  // groups come in the order of travel
-      first = support_loss(past, !detail_);
+      first = groups_[g].passages->loss(index, detail_);
       if (!first.lost) continue;  // below zero for less than the event tolerance
       lost_group = static_cast<int>(g);
       lost_margin[g] = found.margin_mm;
@@ -134,7 +132,7 @@ class Judge {
       result.marginal = std::min(*result.margin_mm, clearance) < kMarginal_mm;
       travel.nominal_mm = std::min(*result.margin_mm, clearance);
       if (least.margin_mm < plain - kMarginal_mm) {
-        result.decided_by = Decision{feature_under(groups_[least_group].voids, layout_, pose, least.x_mm), least.x_mm};
+        result.decided_by = decision(groups_[least_group], pose, least.x_mm);
       }
       if (detail_) tell_delivered(result);
       return travel;
@@ -143,7 +141,7 @@ class Judge {
     result.margin_mm = depth;
     result.marginal = depth < kMarginal_mm;
     travel.nominal_mm = depth;
-    if (blade >= 0 && (lost_group < 0 || blade_x <= first.x_mm)) {
+    if (blade >= 0 && (lost_group < 0 || blade_x <= groups_[lost_group].voids.origin_mm + first.x_mm)) {
       const bool rail = layout_.features[blade].holds_down;
       result.outcome = rail ? Outcome::Jammed : Outcome::Rejected;
       if (rail) travel.lacking_mm = pose.height_mm - *layout_.features[blade].blade_mm;
@@ -155,15 +153,19 @@ class Judge {
       return travel;
     }
     Group& group = groups_[lost_group];
-    if (!group.pieces) group.pieces = void_pieces(group.voids, environment_.track_width_mm);
-    travel.lacking_mm = fall_shortfall(pose, first, *group.pieces, environment_.track_width_mm);
+    travel.lacking_mm = group.passages->shortfall(index, environment_.track_width_mm);
     result.outcome = travel.lacking_mm == 0 ? Outcome::Rejected : Outcome::Jammed;
-    result.decided_by = Decision{feature_under(group.voids, layout_, pose, first.x_mm), first.x_mm};
+    result.decided_by = decision(group, pose, first.x_mm);
     if (detail_) describe_loss(pose, first, group, -lost_margin[lost_group], result);
     return travel;
   }
 
  private:
+  Decision decision(const Group& group, const PoseModel& pose, double x_mm) const {
+    const double x = group.voids.origin_mm + x_mm;
+    return {feature_under(group.voids, layout_, pose, x), x};
+  }
+
   int first_blade(const PoseModel& pose) const {
     int first = -1;
     for (int i = 0; i < static_cast<int>(layout_.features.size()); ++i) {
@@ -175,11 +177,10 @@ class Judge {
   }
 
   // Lost before the first feature; features may make the loss deeper.
-  PoseTravel never_stands(const PoseModel& pose, PoseTravel travel) const {
+  PoseTravel never_stands(int index, PoseTravel travel) {
+    const PoseModel& pose = part_.poses[index];
     double least = std::min(pose.travelling.plain_margin_mm, blade_clearance(pose, layout_));
-    for (const Group& group : groups_) {
-      least = std::min(least, least_margin({pose.travelling, group.outline, held_intervals(pose, layout_)}).margin_mm);
-    }
+    for (const Group& group : groups_) least = std::min(least, group.passages->least(index, sweeps_).margin_mm);
     const double depth = std::min(part_.diameter_mm, -least);
     travel.result.outcome = pose.footprint_reaches(environment_.track_width_mm) ? Outcome::Rejected : Outcome::Jammed;
     travel.result.margin_mm = depth;
@@ -203,12 +204,12 @@ class Judge {
     double unsupported = 0;
     for (const Interval& stretch : loss.lost_mm) unsupported += stretch.to - stretch.from;
     result.unsupported_mm = unsupported;
-    const Tipping tipping = tipping_of(pose, loss, group.outline);
+    const Tipping tipping = tipping_of(pose, loss, group.passages->outline());
     const double v = environment_.conveying_speed_mm_s;
     result.tip_mm = drop_travel(tipping, depth, kTipDrop_mm, v);
     const std::optional<double> through = drop_travel(tipping, depth, pose.height_mm, v);
     result.may_catch = std::isfinite(tipping.reach_mm) && (!through || tipping.reach_mm < *through);
-    result.reason = "loses its support at x = " + mm(loss.x_mm) + " over " +
+    result.reason = "loses its support at x = " + mm(result.decided_by->x_mm) + " over " +
                     named(layout_, result.decided_by->feature) + ", by up to " + mm(depth) + " for " + mm(unsupported) +
                     " of travel; ";
     result.reason += result.outcome == Outcome::Rejected
@@ -222,6 +223,7 @@ class Judge {
   const Layout& layout_;
   const Environment& environment_;
   bool detail_;
+  std::int64_t& sweeps_;
   std::vector<Group> groups_;
 };
 
@@ -234,12 +236,18 @@ double segment_distance(const Point& a, const Point& b, const Point& c, const Po
 
 std::vector<PoseTravel> travel_all(const PartModel& part, const Layout& layout, const Environment& environment,
                                    bool detail) {
-  Judge judge(part, layout, environment, detail);
+  Passages passages(part);
+  return travel_all(part, layout, environment, detail, passages);
+}
+
+std::vector<PoseTravel> travel_all(const PartModel& part, const Layout& layout, const Environment& environment,
+                                   bool detail, Passages& passages) {
+  Judge judge(part, layout, environment, detail, passages);
   std::vector<PoseTravel> travels;
   travels.reserve(part.poses.size());
   for (std::size_t i = 0; i < part.poses.size(); ++i) {
     const PoseModel& pose = part.poses[i];
-    PoseTravel travel = judge(pose);
+    PoseTravel travel = judge(static_cast<int>(i));
     travel.aspect = pose.stable.aspect;
     travel.extent_mm = pose.x_max - pose.x_min;
     if (travel.result.outcome == Outcome::Delivered) travel.exit_pose = travel.exit_class = static_cast<int>(i);

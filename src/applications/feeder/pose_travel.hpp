@@ -3,6 +3,7 @@
 
 #include "applications/feeder/evaluation.hpp"
 #include "applications/feeder/part_model.hpp"
+#include "applications/feeder/passages.hpp"
 #include "applications/feeder/tolerance.hpp"
 #include "applications/feeder/track_layout.hpp"
 #include "applications/feeder/void_rule.hpp"
@@ -25,6 +26,9 @@ struct PoseTravel {
 // detail: also unsupported travel, tipping, catching, and the sentences.
 std::vector<PoseTravel> travel_all(const PartModel& part, const Layout& layout, const Environment& environment,
                                    bool detail);
+// passages: of this part, always asked with the same detail.
+std::vector<PoseTravel> travel_all(const PartModel& part, const Layout& layout, const Environment& environment,
+                                   bool detail, Passages& passages);
 
 // Webs between voids thinner than least_mm, within the strip.
 void check_webs(const Layout& layout, double least_mm, double track_width_mm, std::vector<Violation>& violations);

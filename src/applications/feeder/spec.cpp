@@ -9,6 +9,20 @@ std::string type_name(const FeatureSpec& feature) {
   return kNames[feature.shape.index()];
 }
 
+const char* name(Must must) {
+  switch (must) {
+    case Must::Free:
+      return "free";
+    case Must::Blocked:
+      return "blocked";
+    case Must::Supported:
+      return "supported";
+    case Must::Unsupported:
+      return "unsupported";
+  }
+  return "free";
+}
+
 std::span<const Objective> known_objectives() {
   static const std::vector<Objective> kObjectives{
       {"efficiency", true, 1e-9, true}, {"tolerance_mm", true, 0.01, false},    {"length_mm", false, 0.5, false},

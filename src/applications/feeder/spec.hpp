@@ -2,6 +2,7 @@
 // variables, the goal. Filled by io, read by the feeder application. mm, rad, s.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <span>
@@ -9,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "analysis/contact/configuration.hpp"
 #include "analysis/geometry/polygon.hpp"
 #include "problem/affine.hpp"
 #include "problem/problem.hpp"
@@ -104,6 +106,31 @@ using DesignSpec = std::vector<FeatureSpec>;
 // The contract's name of the feature's type ("balcony", "dish-out", ...).
 std::string type_name(const FeatureSpec& feature);
 
+// What a goal may ask of one configuration: to keep at least by_mm away from obstacles, or from tipping, or to overlap
+// or to tip by at least that.
+enum class Must { Free, Blocked, Supported, Unsupported };
+const char* name(Must must);
+
+struct ConfigurationGoal {
+  int aspect = 0;
+  Configuration q;
+  Must must = Must::Free;
+  double by_mm = 0;
+};
+
+// A contact facet that has to move, at one orientation, from where it is at the variables' starting values.
+struct FacetGoal {
+  int aspect = 0;
+  bool edge_moves = false;       // EV: an edge of the part on a fixed corner; else a corner of the part on a fixed edge
+  int moving = 0;                // the number of the part's edge or corner, as written
+  int component = 0, fixed = 0;  // likewise of the obstacle
+  double theta_rad = 0;
+  double outward_mm = 0;  // away from the obstacle, into free space
+  // Where the part touches at the facet's middle, at the variables' starting values in the first topology: how far the
+  // facet has moved is measured from here.
+  Configuration reference = {};
+};
+
 struct Goal {
   bool one_pose = false;  // deliver the delivered pose of largest prior, whichever it is
   std::string aspect;     // or this one; "any" for all aspects
@@ -111,6 +138,9 @@ struct Goal {
   bool require_tip = false;
   // On a belt, where no wall presses parts flush: how far from the goal's orientation they may leave (0.01 degrees).
   double within_rad = 1.7453292519943296e-4;
+  // Goals on the motion constraints themselves.
+  std::vector<ConfigurationGoal> configurations;
+  std::vector<FacetGoal> facets;
 };
 
 struct Manufacture {
@@ -126,6 +156,21 @@ struct Uncertainty {
 // What feeders can be searched for; the first three unless the problem says otherwise.
 std::span<const Objective> known_objectives();
 
+// Sequences of a grammar that are left out of the search, since no values of their numbers can reach the goal.
+struct PrunedSequences {
+  std::string pattern;  // "only balcony, gap, slot"
+  std::string reason;   // one sentence
+  std::int64_t count = 0;
+};
+
+// Topologies asked for by a catalogue; its expansion fills the designs and the variables.
+struct GrammarSpec {
+  std::vector<std::string> features;  // as written: types, and "cutout3" to "cutout6"
+  int max_features = 1;
+  std::int64_t sequences = 0;  // before pruning
+  std::vector<PrunedSequences> pruned;
+};
+
 struct FeederSpec {
   PartSpec part;
   Environment environment;
@@ -134,7 +179,9 @@ struct FeederSpec {
   Uncertainty uncertainty;
   std::vector<Variable> variables;
   std::vector<DesignSpec> designs;  // one per topology
+  std::optional<GrammarSpec> grammar;
   std::vector<Objective> objectives;
+  bool robust = false;  // feasibility and objectives of the search are those of the worst case
 };
 
 }  // namespace formotion::feeder

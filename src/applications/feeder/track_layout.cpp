@@ -232,6 +232,36 @@ bool boxes_overlap(const std::vector<Loop>& loops) {
   return false;
 }
 
+std::vector<VoidGroup> grouped(const Layout& layout, double reach_mm, bool in_own_frames) {
+  std::vector<int> order;
+  for (int i = 0; i < static_cast<int>(layout.features.size()); ++i) {
+    if (!layout.features[i].voids.empty()) order.push_back(i);
+  }
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return layout.features[a].x_min < layout.features[b].x_min; });
+  std::vector<VoidGroup> groups;
+  double end = 0;
+  for (const int i : order) {
+    const LaidFeature& feature = layout.features[i];
+    if (groups.empty() || feature.x_min - end >= reach_mm) {
+      groups.emplace_back();
+      end = feature.x_max;
+    }
+    groups.back().features.push_back(i);
+    end = std::max(end, feature.x_max);
+  }
+  for (VoidGroup& group : groups) {
+    const bool own = in_own_frames && group.features.size() == 1;
+    if (own) group.origin_mm = layout.features[group.features.front()].start_mm;
+    for (const int i : group.features) {
+      const std::vector<Loop>& voids = own ? layout.features[i].own_voids : layout.features[i].voids;
+      group.loops.insert(group.loops.end(), voids.begin(), voids.end());
+    }
+    if (boxes_overlap(group.loops)) group.loops = loops_of(united(group.loops));
+  }
+  return groups;
+}
+
 }  // namespace
 
 std::optional<std::string> profile_defect(const Loop& face) {
@@ -270,6 +300,7 @@ Layout lay_out(const DesignSpec& design, const Environment& environment, const M
     if (manufacture.cutter_radius_mm && *manufacture.cutter_radius_mm > 0) {
       feature.voids = milled(feature.voids, *manufacture.cutter_radius_mm, where, layout.invalid);
     }
+    feature.own_voids = feature.voids;
     for (Loop& loop : feature.voids) {
       for (Point& p : loop) p.x() += feature.start_mm;
     }
@@ -295,29 +326,10 @@ std::vector<Interval> recesses(const Layout& layout) {
   return joined(std::move(cuts));
 }
 
-std::vector<VoidGroup> grouped(const Layout& layout, double reach_mm) {
-  std::vector<int> order;
-  for (int i = 0; i < static_cast<int>(layout.features.size()); ++i) {
-    if (!layout.features[i].voids.empty()) order.push_back(i);
-  }
-  std::sort(order.begin(), order.end(),
-            [&](int a, int b) { return layout.features[a].x_min < layout.features[b].x_min; });
-  std::vector<VoidGroup> groups;
-  double end = 0;
-  for (const int i : order) {
-    const LaidFeature& feature = layout.features[i];
-    if (groups.empty() || feature.x_min - end >= reach_mm) {
-      groups.emplace_back();
-      end = feature.x_max;
-    }
-    groups.back().features.push_back(i);
-    groups.back().loops.insert(groups.back().loops.end(), feature.voids.begin(), feature.voids.end());
-    end = std::max(end, feature.x_max);
-  }
-  for (VoidGroup& group : groups) {
-    if (boxes_overlap(group.loops)) group.loops = loops_of(united(group.loops));
-  }
-  return groups;
+std::vector<VoidGroup> grouped(const Layout& layout, double reach_mm) { return grouped(layout, reach_mm, false); }
+
+std::vector<VoidGroup> grouped_in_own_frames(const Layout& layout, double reach_mm) {
+  return grouped(layout, reach_mm, true);
 }
 
 std::vector<ObstacleShape> obstacle_shapes(const Layout& layout, double far_mm) {

@@ -16,6 +16,7 @@ struct LaidFeature {
   std::string type;
   double start_mm = 0, end_mm = 0;
   std::vector<Loop> voids;               // counter-clockwise; features that are open to the free edge go on beyond it
+  std::vector<Loop> own_voids;           // the same, x from start_mm
   double x_min = 0, x_max = 0;           // of the voids
   std::vector<ObstacleShape> obstacles;  // what stands on the track or in place of the wall
   std::vector<Interval> wall_cuts;       // where the wall is taken away: a profile lies below it
@@ -37,6 +38,7 @@ std::vector<Interval> recesses(const Layout& layout);
 struct VoidGroup {
   std::vector<int> features;  // indices, by position
   std::vector<Loop> loops;    // disjoint, the void to the left
+  double origin_mm = 0;       // loops have x from here
 };
 
 // Why a polyline is no face of a wall, in words; none if it is one.
@@ -45,6 +47,9 @@ std::optional<std::string> profile_defect(const Loop& face);
 Layout lay_out(const DesignSpec& design, const Environment& environment, const Manufacture& manufacture,
                double part_diameter_mm, std::span<const double> values);
 std::vector<VoidGroup> grouped(const Layout& layout, double reach_mm);
+// The same groups; a feature that is one by itself has its own start for the origin, so that the same feature is the
+// same loops, bit for bit, wherever it stands.
+std::vector<VoidGroup> grouped_in_own_frames(const Layout& layout, double reach_mm);
 
 // Everything that a part can touch, in the world's frame: component 0 is the wall, from x = -far_mm to far_mm and
 // without what profiles take away; then come the features' obstacles, in the design's order.

@@ -10,7 +10,6 @@ namespace formotion::feeder {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kMostTolerance_mm = 5;
 constexpr double kFirstRung_mm = 0.01;
 constexpr double kTolerancePrecision_mm = 1e-3;
 constexpr int kRing = 24;  // further starts on a belt that the tolerance looks at
@@ -159,10 +158,11 @@ bool ends_alike(const PoseTravel& nominal, const StartTravel& travel, double mar
 class ToleranceSearch {
  public:
   ToleranceSearch(const PartModel& part, const Layout& layout, const Environment& environment,
-                  const TurningEvaluation& nominal)
-      : part_(part), layout_(layout), environment_(environment), nominal_(nominal) {
-    for (const PoseTravel& arrival : nominal.arrivals) {
-      if (arrival.result.outcome == Outcome::Delivered && has_voids(layout))
+                  const TurningEvaluation& nominal, const std::vector<bool>& counted)
+      : part_(part), layout_(layout), environment_(environment), nominal_(nominal), counted_(counted) {
+    for (std::size_t i = 0; i < nominal.arrivals.size(); ++i) {
+      const PoseTravel& arrival = nominal.arrivals[i];
+      if (counts(i) && arrival.result.outcome == Outcome::Delivered && has_voids(layout))
         most_ = std::min(most_, std::max(0.0, arrival.nominal_mm));
     }
   }
@@ -185,6 +185,8 @@ class ToleranceSearch {
   }
 
  private:
+  bool counts(std::size_t arrival) const { return counted_.empty() || counted_[arrival]; }
+
   bool holds(double e) {
     const bool voids = has_voids(layout_);
     for (const double obstacles : {e, -e}) {
@@ -199,6 +201,7 @@ class ToleranceSearch {
   bool holds_on(TurningTrack& track, double voids_by, double e, bool voids) {
     const bool belt = is_belt(environment_);
     for (std::size_t i = 0; i < nominal_.arrivals.size(); ++i) {
+      if (!counts(i)) continue;
       const PoseTravel& arrival = nominal_.arrivals[i];
       const bool delivered = arrival.result.outcome == Outcome::Delivered;
       if (voids && delivered != (voids_by > 0)) continue;  // larger voids threaten what is kept, smaller what is lost
@@ -234,7 +237,8 @@ class ToleranceSearch {
   const Layout& layout_;
   const Environment& environment_;
   const TurningEvaluation& nominal_;
-  double most_ = kMostTolerance_mm;
+  const std::vector<bool>& counted_;
+  double most_ = kMostTurningTolerance_mm;
   std::int64_t projections_ = 0;
 };
 
@@ -283,8 +287,8 @@ TurningEvaluation travel_all_turning(const PartModel& part, const Layout& layout
 }
 
 TurningTolerance turning_tolerance(const PartModel& part, const Layout& layout, const Environment& environment,
-                                   const TurningEvaluation& nominal) {
-  return ToleranceSearch(part, layout, environment, nominal).run();
+                                   const TurningEvaluation& nominal, const std::vector<bool>& counted) {
+  return ToleranceSearch(part, layout, environment, nominal, counted).run();
 }
 
 std::vector<Sensitivity> gyration_sensitivity(const PartModel& part, const Layout& layout,

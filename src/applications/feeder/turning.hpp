@@ -21,18 +21,21 @@ TurningEvaluation travel_all_turning(const PartModel& part, const Layout& layout
 inline constexpr double kSameExit_rad = 1.7453292519943296e-4;  // 0.01 degrees
 int exit_pose(const PartModel& part, int aspect, double exit_rad);
 
+inline constexpr double kMostTurningTolerance_mm = 5;
+
 // A lower bound, to 1e-3 mm, of the e up to which all of the following end as they do without errors (delivered ones
 // in the same orientation and, where there are voids, with a margin of e): every arrival, past obstacles grown by e and
 // shrunk by e, each with voids grown by e (for what is delivered) and shrunk by e (for what is not). On a belt the
 // arrivals are the middles of the map's intervals, and a further ring of starts must end in no new way. Outcomes are
 // not monotone in e: they are checked at every e of a ladder (0.01 mm, times sqrt 2 each) up to the first that fails,
-// and between the last two by halving. At most 5 mm.
+// and between the last two by halving. At most kMostTurningTolerance_mm.
 struct TurningTolerance {
   double tolerance_mm = 0;
   std::int64_t projections = 0;
 };
+// counted: the arrivals that it is asked of; empty: all.
 TurningTolerance turning_tolerance(const PartModel& part, const Layout& layout, const Environment& environment,
-                                   const TurningEvaluation& nominal);
+                                   const TurningEvaluation& nominal, const std::vector<bool>& counted = {});
 
 // The same design with another damping: which starts end otherwise?
 struct Sensitivity {

@@ -1,22 +1,30 @@
-// Arrivals among obstacles for a whole set of frictions and drive directions: what all members agree on.
+// Arrivals among obstacles for a whole set of uncertain values: what all members agree on. Members are looked at, not
+// proved in between.
 #pragma once
 
 #include <string>
 
+#include "applications/feeder/part_spread.hpp"
 #include "applications/feeder/turning.hpp"
 
 namespace formotion::feeder {
 
+struct TurningCase {
+  const PartModel& part;  // every pose that arrives in some member
+  const Layout& layout;
+  const Environment& environment;
+  const std::vector<PoseTravel>& arrivals;  // without uncertainties: one for every pose, or on belts the map's
+};
+
 struct SetEvaluation {
-  std::vector<Outcome> arrivals;     // the outcome of all members that were looked at, with one exit; or Ambiguous
-  std::optional<std::string> bites;  // the interval that changes an arrival's end by itself, the first such
+  std::vector<bool> alike;           // whether all members that were looked at end as the arrival does as drawn
+  std::optional<std::string> bites;  // the value that changes an arrival's end by itself, the first such
   std::int64_t projections = 0;
 };
 
-// Intervals as in the file ("wall_friction", "drive_deg"); others are not for here. Members are those that
-// outcome_of_set (outcome_map.hpp) looks at.
-SetEvaluation arrivals_over_sets(const PartModel& part, const Layout& layout, const Environment& environment,
-                                 const std::map<std::string, std::pair<double, double>>& intervals,
-                                 const TurningEvaluation& nominal);
+// Members of the box of all uncertain values: those that outcome_of_set (outcome_map.hpp) looks at. Friction, drive and
+// tilt from their intervals; obstacles and the part's outline grown or shrunk evenly; the centre of mass in the square
+// within its disc; voids off to the adverse side of each arrival.
+SetEvaluation arrivals_over_sets(const TurningCase& turning, const Uncertainty& uncertainty, bool find_what_bites);
 
 }  // namespace formotion::feeder

@@ -1,0 +1,24 @@
+// work: what a worker runs. Reads an order, runs its tasks in a child process, writes the report.
+#include <fstream>
+#include <iterator>
+
+#include "applications/feeder/feeder_problem.hpp"
+#include "cluster/supervised_work.hpp"
+#include "commands.hpp"
+#include "io/problem_file.hpp"
+#include "report/run_files.hpp"
+
+namespace formotion {
+
+int run_work(const WorkFiles& files) {
+  std::ifstream stream(files.order, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream) throw StoreError(files.order + ": cannot be read");
+  const WorkReport report = supervised(decoded_order(bytes), [&]() -> std::unique_ptr<Problem> {
+    return std::make_unique<feeder::FeederProblem>(read_problem_file(files.problem).feeder);
+  });
+  write_file(files.report, encoded(report));
+  return kDone;
+}
+
+}  // namespace formotion
