@@ -58,6 +58,7 @@ class CoverProof {
 
  private:
   void look_at(int kind, Cell cell) {
+    ++work_.done;  // also where no sweep is needed: cells must not grow without end
     cell.displacement = *problem_.displacement_mm(kind, cell.half);
     const double error = tolerance_ - cell.displacement - kRounding;
     if (error <= 0) {

@@ -24,14 +24,6 @@ std::string in_mm(double value, bool up = false) {
   return out.str();
 }
 
-// The objective that is the tolerance, if there is one.
-std::optional<std::size_t> tolerance_objective(const Problem& problem) {
-  for (std::size_t k = 0; k < problem.objectives().size(); ++k) {
-    if (problem.objectives()[k].name == "tolerance_mm") return k;
-  }
-  return std::nullopt;
-}
-
 class Closing {
  public:
   Closing(const Problem& problem, const RunState& state)
@@ -43,7 +35,7 @@ class Closing {
       const auto [known, is_new] = best_.try_emplace(track.composition.topology, track.composition.tolerance_mm);
       known->second = std::max(known->second, track.composition.tolerance_mm);
     }
-    const auto k = tolerance_objective(problem);
+    const auto k = staged_.tolerance_objective();
     for (const Evaluated& e : state.evaluations()) {
       if (!k || !e.score.feasible) continue;
       const auto [known, is_new] = best_.try_emplace(e.candidate.topology, e.score.objectives[*k]);

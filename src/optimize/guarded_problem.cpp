@@ -16,6 +16,7 @@ class GuardedStages final : public StagedProblem {
   std::vector<double> objectives(const Composition& composition) const override {
     return stages_.objectives(composition);
   }
+  std::optional<std::size_t> tolerance_objective() const override { return stages_.tolerance_objective(); }
   std::optional<double> displacement_mm(int kind, std::span<const double> half_widths) const override {
     return stages_.displacement_mm(kind, half_widths);
   }

@@ -17,13 +17,15 @@ constexpr std::int64_t kLeastAScan = 100;      // a topology
 constexpr int kBatches = 12;                   // about as many batches follow
 constexpr std::int64_t kMostABatch = 2400;     // so that a stop loses little
 constexpr std::int64_t kLeastABatch = 60;      // where stages are searched: of small budgets a sixth, ...
-constexpr std::int64_t kLeastLater = 400;      // ... up to so many
+constexpr std::int64_t kLeastLater = 200;      // ... up to so many
 constexpr std::int64_t kLeastATask = 40;
 constexpr std::size_t kMostListed = 40;    // composed tracks a batch
-constexpr std::int64_t kEarlyBatches = 3;  // in which stages get three quarters; then one half
+constexpr std::int64_t kEarlyBatches = 3;  // in which stages get a third; then an eighth
 constexpr std::size_t kMostFollowed = 12;  // composing topologies that joint search follows
 constexpr std::size_t kMostGuesses = 12;   // composing topologies whose starting values are scored
 constexpr std::size_t kMostAnew = 40;      // topologies that are looked at where nothing brings anything new
+constexpr std::int64_t kLeastLocal = 120;  // evaluations of a local search
+constexpr std::int64_t kLocalTurn = 4;     // of so many batches one is for local searches, where both have no room
 constexpr int kStrayTask = 8;              // one joint task in so many is for any topology
 
 class Proposer {
@@ -35,7 +37,9 @@ class Proposer {
         random_(budget.seed, kProposals, static_cast<std::uint64_t>(state.batches())),
         joint_(problem, state, random_) {
     const StagedProblem* staged = problem.staged();
-    const bool small = staged && staged->states().size() <= kMostStates && !staged->goals().empty();
+    // Stages are searched for tolerance; where nobody asks for it, whole candidates are cheaper.
+    const bool small =
+        staged && staged->states().size() <= kMostStates && !staged->goals().empty() && staged->tolerance_objective();
     for (int t = 0; t < static_cast<int>(problem.topologies().size()); ++t)
       (small && !staged->stages(t).empty() ? composing_ : others_).push_back(t);
   }
@@ -59,7 +63,7 @@ class Proposer {
     if (!composing_.empty()) {
       StageProposals stages(problem_, state_, random_);
       joint_.guesses(some_of(composing_, kMostGuesses));
-      stages.scan(std::min(others_.empty() ? wanted : wanted / 2, kMostAScan), budget_.seed);
+      stages.scan(std::min(wanted / 2, kMostAScan), budget_.seed);
       append(stages.take());
     }
     append(joint_.take());
@@ -67,10 +71,9 @@ class Proposer {
 
   void search() {
     const auto rest = static_cast<std::int64_t>(static_cast<double>(budget_.evaluations) * (1 - kScanShare));
-    const std::int64_t least = composing_.empty() ? kTaskEvaluations : std::clamp(rest / 6, kLeastABatch, kLeastLater);
+    const std::int64_t least = std::clamp(rest / 6, kLeastABatch, composing_.empty() ? kTaskEvaluations : kLeastLater);
     const std::int64_t batch = std::clamp(rest / kBatches, std::min(rest, least), kMostABatch);
-    const std::int64_t wanted =
-        composing_.empty() ? kTaskEvaluations : std::clamp(batch / 2, kLeastATask, kTaskEvaluations);
+    const std::int64_t wanted = std::clamp(batch / (composing_.empty() ? 2 : 6), kLeastATask, kTaskEvaluations);
     const std::int64_t tasks = std::max<std::int64_t>(1, batch / wanted);
     const std::int64_t each = std::max<std::int64_t>(1, batch / tasks);
     const auto& history = state_.history();
@@ -84,10 +87,11 @@ class Proposer {
     if (for_stages > 0) compose(for_stages, each);
     const std::int64_t rest_of_tasks = tasks - for_stages;
     if (rest_of_tasks > 0 && !others_.empty()) {
-      // Half of the work breeds across topologies, half goes on from single designs.
-      const std::int64_t bred = rest_of_tasks / 2;
+      // Half of the work breeds across topologies, half goes on from single designs; little work takes turns.
+      const bool breeds = state_.batches() % kLocalTurn != 0;
+      const std::int64_t bred = rest_of_tasks > 2 ? rest_of_tasks / 2 : breeds ? rest_of_tasks : 0;
       if (bred > 0) append(evolution_tasks(problem_, state_, bred * each, random_, others_));
-      joint_.search(others_, rest_of_tasks - bred, each);
+      if (rest_of_tasks > bred) joint_.search(others_, rest_of_tasks - bred, each);
       append(joint_.take());
     }
   }
@@ -97,8 +101,8 @@ class Proposer {
   void compose(std::int64_t tasks, std::int64_t each) {
     StageProposals stages(problem_, state_, random_);
     const std::int64_t evaluations = std::max(each, tasks * each - stages.list(kMostListed));
-    const std::int64_t share = state_.batches() <= kEarlyBatches ? 3 * evaluations / 4 : evaluations / 2;
-    const std::int64_t left = (evaluations - share + stages.search(share, each)) / each;
+    const std::int64_t share = state_.batches() <= kEarlyBatches ? evaluations / 3 : evaluations / 8;
+    const std::int64_t left = evaluations - share + stages.search(share, each);
     append(stages.take());
     std::vector<int> followed = stages.ranked();
     for (const Archive::Member& member : state_.front().members())
@@ -110,9 +114,14 @@ class Proposer {
     }
     if (distinct.size() > kMostFollowed) distinct.resize(kMostFollowed);
     if (distinct.empty()) distinct = some_of(composing_, kMostFollowed);
-    for (std::int64_t i = 0; i < left; ++i) {
+    // Breeding and local searches take turns: both need some room.
+    const bool few = composing_.size() <= kMostFollowed;
+    if (state_.batches() % kLocalTurn != 0)
+      return append(evolution_tasks(problem_, state_, left, random_, few ? composing_ : distinct));
+    const std::int64_t local = std::max<std::int64_t>(1, left / kLeastLocal);
+    for (std::int64_t i = 0; i < local; ++i) {
       const bool stray = random_.below(kStrayTask) == 0;
-      joint_.search(stray ? std::vector<int>{random_.pick(composing_)} : distinct, 1, each);
+      joint_.search(stray ? std::vector<int>{random_.pick(composing_)} : distinct, 1, left / local);
     }
     append(joint_.take());
   }

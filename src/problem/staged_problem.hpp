@@ -86,6 +86,8 @@ class StagedProblem {
                                    const StageDemand& demanded, double at_most_mm) const = 0;
   // In the order and sense of Problem::objectives. An estimate that is exact where stages stand far enough apart.
   virtual std::vector<double> objectives(const Composition& composition) const = 0;
+  // Which of them is the tolerance; none where nobody asks for it, so that stages are not worth a search of their own.
+  virtual std::optional<std::size_t> tolerance_objective() const = 0;
 
   // For proofs. How far any edge of a stage may move when every variable moves by up to its half width; none where that
   // is not known. Tolerances change by no more than that (docs/search.md).

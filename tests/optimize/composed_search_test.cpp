@@ -35,9 +35,9 @@ double best_gain(const RunState& state) {
 TEST_CASE("composed search finds the track of three stages that keeps one thing of four") {
   const ToyStages problem = toy();
   for (const std::uint64_t seed : {1, 2, 3}) {
-    const RunState state = searched(problem, 3000, seed);
+    const RunState state = searched(problem, 6000, seed);
     CHECK(best_gain(state) == Approx(1.75).margin(1e-6));
-    CHECK(state.spent() == 3000);
+    CHECK(state.spent() == 6000);
   }
 }
 

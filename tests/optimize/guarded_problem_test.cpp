@@ -36,6 +36,7 @@ class Watched final : public Problem, public StagedProblem, public SmoothProblem
     look();
     return {0.5, 1};
   }
+  std::optional<std::size_t> tolerance_objective() const override { return std::nullopt; }
   std::vector<double> objectives(const Composition&) const override { return {}; }
   std::optional<double> displacement_mm(int, std::span<const double>) const override { return 1; }
   bool bears(int, std::span<const double>, int, bool, double, std::int64_t&) const override {

@@ -135,6 +135,7 @@ class ToyStages final : public Problem, public StagedProblem {
     }
     return found;
   }
+  std::optional<std::size_t> tolerance_objective() const override { return 0; }
   std::vector<double> objectives(const Composition& composition) const override {
     return {composition.tolerance_mm, composition.length_mm};
   }

@@ -135,6 +135,13 @@ StageTolerance FeederStages::tolerance(int kind, std::span<const double> values,
   return {found, passages.sweeps};
 }
 
+std::optional<std::size_t> FeederStages::tolerance_objective() const {
+  for (std::size_t k = 0; k < spec_.objectives.size(); ++k) {
+    if (spec_.objectives[k].name == "tolerance_mm") return k;
+  }
+  return std::nullopt;
+}
+
 std::vector<double> FeederStages::objectives(const Composition& composition) const {
   std::map<int, double> leaving;
   double pitch = 0, arriving = 0;

@@ -24,6 +24,7 @@ class FeederStages final : public StagedProblem {
   StageTolerance tolerance(int kind, std::span<const double> values, const StageResult& result,
                            const StageDemand& demanded, double at_most_mm) const override;
   std::vector<double> objectives(const Composition& composition) const override;
+  std::optional<std::size_t> tolerance_objective() const override;
   std::optional<double> displacement_mm(int kind, std::span<const double> half_widths) const override;
   bool bears(int kind, std::span<const double> values, int state, bool kept, double error_mm,
              std::int64_t& work) const override;
