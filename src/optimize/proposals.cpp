@@ -25,7 +25,7 @@ constexpr std::size_t kMostFollowed = 12;  // composing topologies that joint se
 constexpr std::size_t kMostGuesses = 12;   // composing topologies whose starting values are scored
 constexpr std::size_t kMostAnew = 40;      // topologies that are looked at where nothing brings anything new
 constexpr std::int64_t kLeastLocal = 120;  // evaluations of a local search
-constexpr std::int64_t kLocalTurn = 4;     // of so many batches one is for local searches, where both have no room
+constexpr std::int64_t kLocalTurn = 4;     // of so many batches one is for local searches, beside stages
 constexpr int kStrayTask = 8;              // one joint task in so many is for any topology
 
 class Proposer {
@@ -88,7 +88,7 @@ class Proposer {
     const std::int64_t rest_of_tasks = tasks - for_stages;
     if (rest_of_tasks > 0 && !others_.empty()) {
       // Half of the work breeds across topologies, half goes on from single designs; little work takes turns.
-      const bool breeds = state_.batches() % kLocalTurn != 0;
+      const bool breeds = state_.batches() % 2 == 1;
       const std::int64_t bred = rest_of_tasks > 2 ? rest_of_tasks / 2 : breeds ? rest_of_tasks : 0;
       if (bred > 0) append(evolution_tasks(problem_, state_, bred * each, random_, others_));
       if (rest_of_tasks > bred) joint_.search(others_, rest_of_tasks - bred, each);
