@@ -63,7 +63,7 @@ class Proposer {
     if (!composing_.empty()) {
       StageProposals stages(problem_, state_, random_);
       joint_.guesses(some_of(composing_, kMostGuesses));
-      stages.scan(std::min(wanted / 2, kMostAScan), budget_.seed);
+      stages.scan(std::clamp(wanted / 2, std::min(wanted, kLeastLater), kMostAScan), budget_.seed);
       append(stages.take());
     }
     append(joint_.take());

@@ -8,6 +8,7 @@
 
 #include "analysis/constraints/hull_margin.hpp"
 #include "analysis/constraints/planar_support.hpp"
+#include "analysis/constraints/support_travel.hpp"
 #include "analysis/geometry/boolean.hpp"
 #include "analysis/geometry/offset.hpp"
 #include "witness/exact_support.hpp"
@@ -24,9 +25,9 @@ constexpr double kTouch_mm = 1e-9;   // metal is closed: what lies on an edge is
 constexpr int kPlaces = 4;           // lowest places of a travel that are zoomed in on
 constexpr int kDiscCorners = 96;     // a disc is true to 0.05 % of its radius
 constexpr int kFineDiscCorners = 384;
-constexpr double kFinest_mm = 1e-7;  // where zooming ends
-constexpr double kBeside_mm = 3e-8;
-constexpr double kClosely = 0.01;  // of the step, where a first look surprises
+constexpr double kFinest_mm = 1e-7;                      // where zooming ends
+constexpr double kBeside_mm = 1.5 * kEventTolerance_mm;  // what lives shorter decides nothing (support_travel.hpp)
+constexpr double kClosely = 0.01;                        // of the step, where a first look surprises
 
 // The features as the contract places and cuts them.
 struct Plan {
