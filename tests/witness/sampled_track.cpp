@@ -20,6 +20,7 @@ using namespace feeder;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFar_mm = 5000;     // voids that go on beyond the strip reach this far
+constexpr double kSame_mm = 1e-5;    // margins that differ by less agree
 constexpr double kUnsure_mm = 1e-4;  // decisions by less than this are not compared
 constexpr double kTouch_mm = 1e-9;   // metal is closed: what lies on an edge is supported
 constexpr int kPlaces = 4;           // lowest places of a travel that are zoomed in on
@@ -234,7 +235,7 @@ Travelled travelled(const Pose& pose, const Track& track, const Stretch& track_r
     double m = found.value_or(kInfinity);
     if (m < result.least - 1e-6) {  // what no neighbour shows is the rounding of a touch
       const auto before = margin(pose, track, x - kBeside_mm), behind = margin(pose, track, x + kBeside_mm);
-      if (std::min(before.value_or(kInfinity), behind.value_or(kInfinity)) > m + kUnsure_mm) m = kInfinity;
+      if (std::min(before.value_or(kInfinity), behind.value_or(kInfinity)) > m + kSame_mm) m = kInfinity;
     }
     if (!found || m < -kUnsure_mm) result.first_lost = std::min(result.first_lost, x);
     result.least = std::min(result.least, m);
@@ -500,7 +501,7 @@ Confirmation compare(const FeederProblem& problem, int topology, std::span<const
       lost = sampled.first_lost < kInfinity || pose.blade < 0;
       const double depth = std::min(diameter, std::max({0.0, -sampled.least, -pose.blade}));
       signed_margin = delivered ? sampled.least : depth;
-      if (lost != delivered && std::abs(*answer.margin_mm - signed_margin) < (plan.round ? 0.02 : 1e-5)) break;
+      if (lost != delivered && std::abs(*answer.margin_mm - signed_margin) < (plan.round ? 0.02 : kSame_mm)) break;
     }
     weakest = std::min(weakest, std::min(std::abs(signed_margin), std::abs(pose.blade)));
     if (std::abs(signed_margin) < accuracy || std::abs(pose.blade) < accuracy) continue;
@@ -510,7 +511,7 @@ Confirmation compare(const FeederProblem& problem, int topology, std::span<const
       continue;
     }
     ++result.margins;
-    if (std::abs(*answer.margin_mm - signed_margin) > (plan.round ? 0.02 : 1e-5)) {
+    if (std::abs(*answer.margin_mm - signed_margin) > (plan.round ? 0.02 : kSame_mm)) {
       disagree(Text() << who << "margin " << *answer.margin_mm << ", by samples " << signed_margin);
     }
     if (delivered || pose.blade < 0) continue;
