@@ -39,9 +39,8 @@ export function chosenDesign(report, state, section) {
     const travel = turning ? null : h('div', { id: 'travel' });
     section.replaceChildren(
       heading(report, design),
-      figures(design),
-      uncertainties(report, design),
-      stampDetails(design),
+      figures(report, design),
+      ...[uncertainties(report, design), stampDetails(design)].filter(Boolean),
       cautions(report, design),
       h('h3', null, 'The track, seen from above'),
       h(
@@ -128,7 +127,7 @@ function heading(report, design) {
   );
 }
 
-function figures(design) {
+function figures(report, design) {
   return h(
     'dl',
     { class: 'figures', id: 'figures' },
@@ -138,7 +137,7 @@ function figures(design) {
         { title: measure(name).says },
         h('dt', null, measure(name).title),
         h('dd', { 'data-measure': name }, withUnit(name, design.metrics[name])),
-        design.worst_case && name in design.worst_case
+        report.problem.uncertainty && design.worst_case && name in design.worst_case
           ? h('dd', { class: 'worst', 'data-worst': name }, `${withUnit(name, design.worst_case[name])} at worst`)
           : null,
       ),

@@ -11,6 +11,7 @@ import { bare, counted, designsEvaluated, measure, titled, whole, withUnit } fro
 import { markShape, topologiesShown, topologyKey } from './topology_colours.js';
 
 const kHeight = 400;
+const kClear = 0.05; // of the larger value: what the eye tells apart
 const kMargin = { left: 66, right: 18, top: 18, bottom: 52 };
 
 // What can be an axis; violation only where something is infeasible.
@@ -20,12 +21,24 @@ export function axisNames(report) {
   return [...names, 'number'];
 }
 
-// Of infeasible runs the violation and an objective. Else two objectives in which the front's designs differ, else all evaluations do; with fewer, the run's course.
+// Of infeasible runs the violation and an objective. Else two objectives in which the front's designs differ clearly, else
+// a little, else all evaluations do; with fewer, the run's course.
 export function startingAxes(report) {
   const names = report.problem.objectives.map((o) => o.name);
-  const varies = (rows) => names.filter((_, k) => new Set(rows.map((r) => r[k])).size > 1);
+  const varies = (rows, least = 0) =>
+    names.filter((_, k) => {
+      const [low, high] = extent(rows, (r) => r[k]);
+      return high - low > least * Math.max(Math.abs(low), Math.abs(high));
+    });
   const chosen = [
-    ...new Set([...varies(report.designs.map((d) => d.objectives)), ...varies(report.sample.map((r) => r[4]))]),
+    ...new Set([
+      ...varies(
+        report.designs.map((d) => d.objectives),
+        kClear,
+      ),
+      ...varies(report.designs.map((d) => d.objectives)),
+      ...varies(report.sample.map((r) => r[4])),
+    ]),
   ];
   if (report.run.feasible === 0 && report.sample.length > 1) return [chosen[0] ?? names[0], 'violation'];
   if (chosen.length > 1) return chosen.slice(0, 2);
