@@ -1,7 +1,9 @@
 // What was asked: the part, the track, the goal, what may vary.
 
+import { assemblyFacts } from './assembly_asked.js';
 import { h } from './dom.js';
 import { degrees, measure, percent, short, whole } from './format.js';
+import { drawnJoint } from './joint_picture.js';
 import { aspectPictures } from './poses.js';
 
 const fact = (name, ...value) => [h('dt', null, name), h('dd', null, ...value)];
@@ -12,6 +14,23 @@ function goalWords(goal) {
     : `let the part through as ${goal.aspect === 'any' ? 'any aspect' : `\u201c${goal.aspect}\u201d`} at ${degrees(goal.orientation_deg)}`;
   return `${what}; every other pose must leave the track${goal.require_tip ? ' and have time to tip' : ''}`;
 }
+
+const trackFacts = (e, part) => [
+  fact(
+    'Track',
+    `${short(e.track_width_mm)} mm wide, ${e.tilt_deg === 0 ? 'level' : `tilted ${short(e.tilt_deg)}\u00b0 towards the wall`}; parts move at ${short(e.conveying_speed_mm_s)} mm/s`,
+  ),
+  fact(
+    'Spacing',
+    `${e.spacing_mm === null ? `${short(part?.diameter_mm, 2)} mm (the part\u2019s diameter)` : `${short(e.spacing_mm)} mm`} between features, unless placed`,
+  ),
+  fact(
+    'Settling',
+    e.settling_friction === 0
+      ? 'poses arrive as without friction at the wall'
+      : `poses arrive as with friction ${short(e.settling_friction)} at the wall`,
+  ),
+];
 
 export function asked(report) {
   const {
@@ -25,11 +44,12 @@ export function asked(report) {
     topology_count: count, // a grammar's are listed only where designs shown have them
     text,
   } = report.problem;
+  const joint = report.problem.assembly;
   const part = report.parts[0];
   const facts = h(
     'dl',
     { class: 'facts' },
-    fact('Goal', goalWords(goal)),
+    joint ? assemblyFacts(joint).map(([name, words]) => fact(name, words)) : fact('Goal', goalWords(goal)),
     fact(
       'Ranked by',
       objectives.map((o, i) => [
@@ -41,21 +61,8 @@ export function asked(report) {
         ),
       ]),
     ),
-    fact(
-      'Track',
-      `${short(e.track_width_mm)} mm wide, ${e.tilt_deg === 0 ? 'level' : `tilted ${short(e.tilt_deg)}\u00b0 towards the wall`}; parts move at ${short(e.conveying_speed_mm_s)} mm/s`,
-    ),
-    fact(
-      'Spacing',
-      `${e.spacing_mm === null ? `${short(part?.diameter_mm, 2)} mm (the part\u2019s diameter)` : `${short(e.spacing_mm)} mm`} between features, unless placed`,
-    ),
-    fact(
-      'Settling',
-      e.settling_friction === 0
-        ? 'poses arrive as without friction at the wall'
-        : `poses arrive as with friction ${short(e.settling_friction)} at the wall`,
-    ),
-    m.cutter_radius_mm !== null || m.min_web_mm !== null
+    joint ? null : trackFacts(e, part),
+    m && (m.cutter_radius_mm !== null || m.min_web_mm !== null)
       ? fact(
           'Manufacture',
           [
@@ -81,9 +88,9 @@ export function asked(report) {
         )
       : null,
     count === 1
-      ? fact('Features', topologies[0].label)
+      ? fact(joint ? 'Shapes' : 'Features', topologies[0].label)
       : fact(
-          `${whole(count)} choices of features`,
+          `${whole(count)} choices of ${joint ? 'shapes' : 'features'}`,
           h(
             'ul',
             { class: 'inline' },
@@ -102,7 +109,7 @@ export function asked(report) {
       h(
         'div',
         null,
-        h('div', { class: 'aspects' }, part ? aspectPictures(part) : null),
+        h('div', { class: 'aspects' }, part ? aspectPictures(part) : joint ? drawnJoint(report) : null),
         part
           ? h(
               'p',
@@ -123,7 +130,7 @@ export function asked(report) {
         details('The problem as run (JSON)', h('pre', { class: 'json' }, pretty(text))),
       ),
     ),
-    posesLine(part),
+    joint ? null : posesLine(part),
   ];
 }
 

@@ -6,9 +6,14 @@ import { s } from './dom.js';
 
 const kTick = 6;
 
-// base: theta of the box's bottom.
-export function axesOverlay({ xMin, xMax, yMin, yMax }, base, to) {
-  const quarters = [0, 1, 2, 3, 4].map((i) => 90 * (Math.ceil(base / 90) + i)).filter((deg) => deg <= base + 360);
+const kTitles = { x: 'x along the track (mm)', y: 'y from the wall (mm)' };
+
+// base: theta of the box's bottom; span: to its top.
+export function axesOverlay({ xMin, xMax, yMin, yMax }, base, to, span = 360, titles = kTitles) {
+  const quarters =
+    span < 360
+      ? ticks(base, base + span, 5)
+      : [0, 1, 2, 3, 4].map((i) => 90 * (Math.ceil(base / 90) + i)).filter((deg) => deg <= base + 360);
   const node = s('svg', { class: 'space-axes', 'aria-hidden': 'true' });
   return {
     node,
@@ -22,7 +27,7 @@ export function axesOverlay({ xMin, xMax, yMin, yMax }, base, to) {
       const near = [Math.cos(a) > 0 ? xMax : xMin, Math.sin(a) > 0 ? yMax : yMin];
       const corners = [xMin, xMax].flatMap((x) => [yMin, yMax].map((y) => [x, y]));
       const leftmost = corners.reduce((best, c) =>
-        screen([...c, base + 180])[0] < screen([...best, base + 180])[0] ? c : best,
+        screen([...c, base + span / 2])[0] < screen([...best, base + span / 2])[0] ? c : best,
       );
       const middle = screen([(xMin + xMax) / 2, (yMin + yMax) / 2, base]);
       const axis = (name, values, at, format = (v) => String(v)) => {
@@ -70,13 +75,13 @@ export function axesOverlay({ xMin, xMax, yMin, yMax }, base, to) {
         ];
       };
       const listed = (low, high, count) => ({ range: [low, high], list: ticks(low, high, count) });
-      const rim = corners.map((c) => screen([...c, base + 360]));
+      const rim = corners.map((c) => screen([...c, base + span]));
       const top = [rim[0], rim[1], rim[3], rim[2]];
       node.replaceChildren(
         s('path', { class: 'box', d: `M${top.map((p) => p.map((v) => v.toFixed(1)).join()).join('L')}Z` }),
-        ...axis('x along the track (mm)', listed(xMin, xMax, 8), (v) => [v, near[1], base]),
-        ...axis('y from the wall (mm)', listed(yMin, yMax, 5), (v) => [near[0], v, base]),
-        ...axis('\u03b8 (\u00b0)', { range: [base, base + 360], list: quarters }, (v) => [...leftmost, v]),
+        ...axis(titles.x, listed(xMin, xMax, 8), (v) => [v, near[1], base]),
+        ...axis(titles.y, listed(yMin, yMax, 5), (v) => [near[0], v, base]),
+        ...axis('\u03b8 (\u00b0)', { range: [base, base + span], list: quarters }, (v) => [...leftmost, v]),
       );
     },
   };

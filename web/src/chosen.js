@@ -1,5 +1,6 @@
 // The chosen design: what it scores, what to mind, its drawing, poses, travel, numbers and how to reproduce it.
 
+import { assemblySection } from './assembly.js';
 import { h } from './dom.js';
 import { fixed, kWeak_mm, measure, mm, short, whole, withUnit } from './format.js';
 import { stampDetails, stampPill } from './stamp.js';
@@ -18,11 +19,22 @@ const kFigures = [
   'jam_probability',
 ];
 
+const kOfAssemblies = [
+  'success_fraction',
+  'capture_mm',
+  'capture_deg',
+  'depth_margin_mm',
+  'peak_force_n',
+  'work_nmm',
+  'chamfer_mm',
+];
+
 export function chosenDesign(report, state, section) {
   let running = null;
 
   function draw() {
     running?.pause();
+    running?.release?.();
     running = null;
     const design = report.designs.find((d) => d.id === state.get('design'));
     if (!design) {
@@ -32,6 +44,7 @@ export function chosenDesign(report, state, section) {
       );
       return;
     }
+    if (report.problem.kind === 'assembly') return drawJoint(design);
     const part = report.parts[design.part];
     const { environment, manufacture } = report.problem;
     const cards = poseCards(design, part, environment.track_width_mm, state);
@@ -62,12 +75,7 @@ export function chosenDesign(report, state, section) {
       ),
       cards.node,
       ...(turning ? [turning.node] : [h('h3', { id: 'travel-title' }, 'Its travel over the track'), travel]),
-      h(
-        'div',
-        { class: 'columns' },
-        h('div', null, h('h3', null, 'Variables'), variables(report, design)),
-        h('div', null, h('h3', null, 'Reproduce it'), reproduce(report, design)),
-      ),
+      numbers(report, design),
     );
     cards.mark();
     section.refreshPose = () => {
@@ -87,10 +95,23 @@ export function chosenDesign(report, state, section) {
     section.refreshPose();
   }
 
+  function drawJoint(design) {
+    running = assemblySection(design, report.problem.assembly);
+    section.replaceChildren(
+      heading(report, design),
+      figures(report, design),
+      ...[uncertainties(report, design), stampDetails(design)].filter(Boolean),
+      jointCautions(design),
+      h('p', { class: 'small' }, links(design)),
+      running.node,
+      numbers(report, design),
+    );
+  }
+
   // The goal's pose first, else the first one that counts against the design.
   function choose() {
     const design = report.designs.find((d) => d.id === state.get('design'));
-    if (design)
+    if (design?.poses)
       state.set(
         'pose',
         design.goal_pose ??
@@ -104,6 +125,15 @@ export function chosenDesign(report, state, section) {
   state.on('design', choose);
   state.on('pose', () => section.refreshPose?.());
   choose();
+}
+
+function numbers(report, design) {
+  return h(
+    'div',
+    { class: 'columns' },
+    h('div', null, h('h3', null, 'Variables'), variables(report, design)),
+    h('div', null, h('h3', null, 'Reproduce it'), reproduce(report, design)),
+  );
 }
 
 function heading(report, design) {
@@ -131,7 +161,7 @@ function figures(report, design) {
   return h(
     'dl',
     { class: 'figures', id: 'figures' },
-    kFigures.map((name) =>
+    (report.problem.kind === 'assembly' ? kOfAssemblies : kFigures).map((name) =>
       h(
         'div',
         { title: measure(name).says },
@@ -202,11 +232,37 @@ function uncertainties(report, design) {
   );
 }
 
-function cautions(report, design) {
-  const { tolerance_mm: tolerance } = design.metrics;
+function whatIsWrong(design) {
+  if (!design.violations.length) return null;
   const wrong = design.violations.map((v) =>
     h('li', { class: 'bad' }, h('b', null, v.what), ` (${v.where}${v.by > 0 ? `, by ${short(v.by, 4)}` : ''})`),
   );
+  return [h('h3', null, 'Why it is not feasible'), h('ul', { id: 'violations' }, wrong)];
+}
+
+function jointCautions(design) {
+  return h(
+    'div',
+    { class: 'cautions' },
+    whatIsWrong(design),
+    h('h3', null, 'Before you cut metal'),
+    h(
+      'ul',
+      { id: 'cautions' },
+      design.feasible ? null : h('li', { class: 'bad' }, 'Do not build this design: it does not meet the goal.'),
+      (design.warnings ?? []).map((text) => h('li', { class: 'warn' }, `${text}.`)),
+      h(
+        'li',
+        null,
+        'Insertions are slow: a rigid part on a linear support, Coulomb friction of one coefficient, no impacts and no bending.',
+      ),
+      h('li', null, 'Friction of real surfaces spreads widely. Try the worst start by hand.'),
+    ),
+  );
+}
+
+function cautions(report, design) {
+  const { tolerance_mm: tolerance } = design.metrics;
   const own = [
     design.feasible ? null : h('li', { class: 'bad' }, 'Do not build this design: it does not meet the goal.'),
     tolerance === null
@@ -223,7 +279,7 @@ function cautions(report, design) {
   return h(
     'div',
     { class: 'cautions' },
-    wrong.length ? [h('h3', null, 'Why it is not feasible'), h('ul', { id: 'violations' }, wrong)] : null,
+    whatIsWrong(design),
     h('h3', null, 'Before you cut metal'),
     h(
       'ul',

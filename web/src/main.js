@@ -49,7 +49,11 @@ function header() {
   const [title, rest] = verdict();
   document.title = `${problem.name} \u2013 Formotion report`;
   byId('head').append(
-    h('p', { class: 'kind' }, `Formotion report \u00b7 ${problem.kind} track`),
+    h(
+      'p',
+      { class: 'kind' },
+      `Formotion report \u00b7 ${problem.kind === 'assembly' ? 'assembly' : `${problem.kind} track`}`,
+    ),
     h('h1', null, problem.name),
     h(
       'p',

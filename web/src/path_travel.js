@@ -1,6 +1,7 @@
 // A part that turns, along its path over the track: contacts, what happens, the way of its centre of mass.
 
 import { animation } from './animation.js';
+import { contactSign } from './contact_sign.js';
 import { h, s } from './dom.js';
 import { degrees, fixed } from './format.js';
 import { boxOf, pathOf } from './geometry.js';
@@ -10,7 +11,6 @@ import { drawCentre, drawObstacles, drawPart, drawTrack, makeView, placedBy, sca
 
 const kSpeeds_mm_s = [5, 10, 20, 50, 100];
 const kMostGhosts = 9;
-const kArrow = 34; // px
 const kMotions = {
   free: 'moves freely',
   translation: 'translates',
@@ -95,7 +95,7 @@ export function pathTravel(path, design, outline, reach, width, moved) {
         trace.setAttribute('d', lineOf([...path.points.filter((_, i) => way.along[i] <= at), placement], view));
         const now = path.legs[leg];
         const touches = now ? carried(now.contacts, path.points[now.from], placement, turning.obstacles) : [];
-        contacts.replaceChildren(...touches.flatMap((c) => contact(c, view)));
+        contacts.replaceChildren(...touches.flatMap((c) => contactSign(c, turning.friction, view)));
         hand.setAttribute('d', `M${along(at)},${strip - 4}v24`);
         steps.forEach((step, i) =>
           i === leg ? step.setAttribute('aria-current', 'step') : step.removeAttribute('aria-current'),
@@ -117,26 +117,6 @@ export function pathTravel(path, design, outline, reach, width, moved) {
         .filter((_, i) => i % every === 0 || i === all.length - 1)
         .map((at) => s('path', { d, transform: placedBy(view, ...way.placement(at)), 'fill-rule': 'evenodd' })),
     );
-  }
-
-  function contact({ point, normal, sticks }, view) {
-    const [x, y] = view.to(point);
-    const [nx, ny] = [normal[0], -normal[1]];
-    const side = (angle, size) => {
-      const [c, sn] = [Math.cos(angle), Math.sin(angle)];
-      return [x + size * (c * nx - sn * ny), y + size * (sn * nx + c * ny)];
-    };
-    const tip = side(0, kArrow);
-    const [head, tail] = [side(0.12, kArrow - 9), side(-0.12, kArrow - 9)];
-    const cone = turning.friction > 0 ? Math.atan(turning.friction) : 0;
-    const size = kArrow + 8;
-    const [from, to] = [side(-cone, size), side(cone, size)];
-    return [
-      cone ? s('path', { class: 'cone', d: `M${x},${y}L${from}A${size},${size} 0 0 1 ${to}Z` }) : '',
-      s('path', { class: 'normal', d: `M${x},${y}L${tip}` }),
-      s('path', { class: 'normal-head', d: `M${tip}L${head}L${tail}Z` }),
-      s('circle', { class: sticks ? 'contact sticks' : 'contact', cx: x, cy: y, r: 4.5 }),
-    ].filter(Boolean);
   }
 
   function drawPicked(d, view) {

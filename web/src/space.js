@@ -43,16 +43,19 @@ function rendererOrNull() {
 }
 
 // space: of one aspect; paths: those of that aspect; picked(facet, placement) is told what was clicked.
-// Answers null without WebGL, else the picture's node, what its controls do (range: of theta, for clipTo), show(path),
-// follow(placement, path) and release().
-export function spaceView({ space, outline, reach, turning, paths, picked }) {
+// part: {from, to, margin} where the space holds only some theta: these, and the mm shown beside the paths; titles: of the
+// axes. Answers null without WebGL, else the picture's node, what its controls do (range: of theta, for clipTo),
+// show(path), follow(placement, path) and release().
+export function spaceView({ space, outline, reach, turning, paths, picked, part = null, titles = undefined }) {
   const renderer = rendererOrNull();
   if (!renderer) return null;
   const canvas = renderer.domElement;
-  const base = seam(space, paths);
+  const base = part ? part.from : seam(space, paths);
+  const span = part ? part.to - part.from : 360;
+  const margin = part ? part.margin : reach / 2;
   const held = boxOf([...paths.map((p) => p.points), ...turning.obstacles.map(outlineOf)]);
-  const [least, most] = [held.xMin - reach / 2, held.xMax + reach / 2];
-  const slices = windowed(from(space.slices, base), [least, most], turning.wall_y);
+  const [least, most] = [held.xMin - margin, held.xMax + margin];
+  const slices = windowed(part ? space.slices : from(space.slices, base), [least, most], turning.wall_y);
   const made = surfaces({ ...space, slices }, reach);
   const box = boxOf([made.vertices, ...paths.map((p) => p.points)]);
   box.yMin = Math.min(box.yMin, turning.wall_y);
@@ -60,11 +63,11 @@ export function spaceView({ space, outline, reach, turning, paths, picked }) {
   const size = [box.xMax - box.xMin, box.yMax - box.yMin];
   const tall = kTall * Math.max(size[0], size[1]);
   const middle = [(box.xMin + box.xMax) / 2, (box.yMin + box.yMax) / 2];
-  const to = ([x, y, deg]) => new Vector3(x - middle[0], y - middle[1], ((deg - base) / 360 - 0.5) * tall);
-  const lifted = (deg) => base + turned(deg - base);
+  const to = ([x, y, deg]) => new Vector3(x - middle[0], y - middle[1], ((deg - base) / span - 0.5) * tall);
+  const lifted = (deg) => (part ? deg : base + turned(deg - base));
   const radius = Math.hypot(size[0], size[1], tall) / 2;
   const corners = [box.xMin, box.xMax].flatMap((x) =>
-    [box.yMin, box.yMax].flatMap((y) => [base, base + 360].map((t) => to([x, y, t]))),
+    [box.yMin, box.yMax].flatMap((y) => [base, base + span].map((t) => to([x, y, t]))),
   );
 
   const scene = new Scene();
@@ -91,7 +94,7 @@ export function spaceView({ space, outline, reach, turning, paths, picked }) {
   scene.add(marker.node);
 
   const state = { ...kView, zoom: 1, flat: false, px: 0 };
-  const overlay = axesOverlay(box, base, to);
+  const overlay = axesOverlay(box, base, to, span, titles);
   const tip = h('div', { class: 'tip', hidden: true });
   const frame = h('div', { class: 'space-frame', 'data-triangles': made.triangles.length }, canvas, overlay.node, tip);
   let asked = false;
@@ -151,7 +154,7 @@ export function spaceView({ space, outline, reach, turning, paths, picked }) {
       .intersectObject(front)
       .find(({ point }) => clip.every((plane) => plane.distanceToPoint(point) >= 0));
     if (!hit) return null;
-    const theta = base + (hit.point.z / tall + 0.5) * 360;
+    const theta = base + (hit.point.z / tall + 0.5) * span;
     return { facet: made.facetOf[hit.faceIndex], placement: [hit.point.x + middle[0], hit.point.y + middle[1], theta] };
   };
   function choose(hit) {
@@ -163,9 +166,9 @@ export function spaceView({ space, outline, reach, turning, paths, picked }) {
   const abort = handle(canvas, state, look, hitAt, choose, (facet) => space.facets[facet].label, tip);
 
   function clipTo(low, high) {
-    clip[0].constant = -((low - base) / 360 - 0.5) * tall + 1e-3;
-    clip[1].constant = ((high - base) / 360 - 0.5) * tall + 1e-3;
-    const cut = [low > base ? low : null, high < base + 360 ? high : null].filter((v) => v !== null);
+    clip[0].constant = -((low - base) / span - 0.5) * tall + 1e-3;
+    clip[1].constant = ((high - base) / span - 0.5) * tall + 1e-3;
+    const cut = [low > base ? low : null, high < base + span ? high : null].filter((v) => v !== null);
     const points = cut.flatMap((deg) => {
       const slice = slices.reduce((a, b) => (Math.abs(b.theta_deg - deg) < Math.abs(a.theta_deg - deg) ? b : a));
       return slice.pieces.flatMap(([, x0, y0, x1, y1]) => [to([x0, y0, deg]), to([x1, y1, deg])]);
@@ -174,7 +177,7 @@ export function spaceView({ space, outline, reach, turning, paths, picked }) {
     section.geometry = new BufferGeometry().setFromPoints(points);
     soon();
   }
-  clipTo(base, base + 360);
+  clipTo(base, base + span);
 
   return {
     node: frame,
@@ -186,7 +189,7 @@ export function spaceView({ space, outline, reach, turning, paths, picked }) {
         item.material?.dispose();
       });
     },
-    range: [base, base + 360],
+    range: [base, base + span],
     look,
     reset: () => {
       state.zoom = 1;
@@ -203,7 +206,7 @@ export function spaceView({ space, outline, reach, turning, paths, picked }) {
     show(chosen) {
       tubes.children.forEach((child) => child.geometry.dispose());
       tubes.clear();
-      for (const path of paths) tubes.add(...tubesOf(path, path === chosen, base, to, radius));
+      for (const path of paths) tubes.add(...tubesOf(path, path === chosen, part ? -180 : base, to, radius));
       soon();
     },
     follow(placement, path) {

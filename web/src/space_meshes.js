@@ -28,7 +28,8 @@ import { tube } from './tube.js';
 
 // A colour of the page.
 export const colour = (name) => new Color(getComputedStyle(document.documentElement).getPropertyValue(name).trim());
-const outcomeColour = (name) => colour(`--${['delivered', 'rejected', 'jammed'].includes(name) ? name : 'other'}`);
+const outcomeColour = (name) =>
+  colour(`--${['delivered', 'rejected', 'jammed', 'assembled', 'wedged'].includes(name) ? name : 'other'}`);
 
 export function surfaceMeshes(made, space, to, clip) {
   const kinds = { EV: colour('--contact-ev'), VE: colour('--contact-ve') };

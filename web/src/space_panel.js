@@ -3,8 +3,23 @@
 import { h } from './dom.js';
 import { degrees, fixed } from './format.js';
 
+// What the panel says of a track; aspect: of the part.
+const trackWords = (aspect) => ({
+  views: [
+    ['From the wall', -90],
+    ['Along the feed', -180],
+  ],
+  below: 'track and obstacles below',
+  caption: [
+    `Aspect \u201c${aspect}\u201d. A point of this space is a placement of the part: where its centre of mass is (x, y) and how it is turned (\u03b8, upwards; top and bottom are the same). `,
+    'A surface is where a feature of the part touches a feature of the track, seen from its free side (from behind it is faint): the part\u2019s path runs along surfaces, or through the free space between them.',
+  ],
+  click: 'click a surface to see that contact on the track above.',
+  dotted: '; dotted on the track above.',
+});
+
 // view: a spaceView of data, the space of one aspect. Answers {node, view, picked(facet, placement)}.
-export function spacePanel(view, data, aspect) {
+export function spacePanel(view, data, aspect, words = trackWords(aspect)) {
   const facets = data.facets
     .map((facet, i) => ({ ...facet, index: i }))
     .filter((f) => data.slices.some((slice) => slice.pieces.some((p) => p[0] === f.index)));
@@ -13,11 +28,11 @@ export function spacePanel(view, data, aspect) {
     h('input', { type: 'range', id, min: least, max: most, step: data.theta_step_deg, value, 'aria-label': label });
   const low = range('theta-from', least, 'Least theta shown');
   const high = range('theta-to', most, 'Largest theta shown');
-  const words = () => `${degrees(Number(low.value))} to ${degrees(Number(high.value))}`;
-  const said = h('output', { class: 'theta-words' }, words());
+  const thetaWords = () => `${degrees(Number(low.value))} to ${degrees(Number(high.value))}`;
+  const said = h('output', { class: 'theta-words' }, thetaWords());
   const clip = (moved) => {
     if (Number(low.value) > Number(high.value)) (moved === low ? high : low).value = moved.value;
-    said.textContent = words();
+    said.textContent = thetaWords();
     view.clipTo(Number(low.value), Number(high.value));
   };
   low.addEventListener('input', () => clip(low));
@@ -58,8 +73,7 @@ export function spacePanel(view, data, aspect) {
       { class: 'controls' },
       h('button', { type: 'button', id: 'space-reset', onclick: () => view.reset() }, 'Reset view'),
       button('From above', -90, 89.9),
-      button('From the wall', -90, 0),
-      button('Along the feed', -180, 0),
+      words.views.map(([text, azimuth]) => button(text, azimuth, 0)),
       h('label', null, 'Colour ', by),
       h('label', null, 'Surface ', list),
     ),
@@ -72,18 +86,13 @@ export function spacePanel(view, data, aspect) {
       item('path-chosen', 'chosen path'),
       item('path-other', 'other paths'),
       item('marker', 'the part now'),
-      item('shadow', 'track and obstacles below'),
+      words.below ? item('shadow', words.below) : null,
     ),
     h(
       'figcaption',
       { id: 'space-caption' },
-      `Aspect \u201c${aspect}\u201d. A point of this space is a placement of the part: where its centre of mass is (x, y) and how it is turned (\u03b8, upwards; top and bottom are the same). `,
-      'A surface is where a feature of the part touches a feature of the track, seen from its free side (from behind it is faint): the part\u2019s path runs along surfaces, or through the free space between them.',
-      h(
-        'span',
-        { class: 'screen' },
-        ' Drag or use the arrow keys to turn it, + and \u2212 to zoom; click a surface to see that contact on the track above.',
-      ),
+      words.caption,
+      h('span', { class: 'screen' }, ` Drag or use the arrow keys to turn it, + and \u2212 to zoom; ${words.click}`),
     ),
   );
   return {
@@ -94,7 +103,7 @@ export function spacePanel(view, data, aspect) {
         ...(facet
           ? [
               h('b', null, facet.label),
-              ` at x ${fixed(placement[0], 1)} mm, y ${fixed(placement[1], 1)} mm, \u03b8 ${fixed(placement[2], 1)}\u00b0; dotted on the track above.`,
+              ` at x ${fixed(placement[0], 1)} mm, y ${fixed(placement[1], 1)} mm, \u03b8 ${fixed(placement[2], 1)}\u00b0${words.dotted}`,
             ]
           : []),
       );

@@ -54,8 +54,8 @@ bool out_of_reach(const ContactSpace& space, std::size_t index, const Piece& p) 
   return (sum + moves) / 2 < -kContact_mm || (sum - moves) / 2 > a.extent_mm + kContact_mm;
 }
 
-// Where the gap falls through the floor on this piece of the flow, with the features in reach of each other.
-double crossing(const ContactSpace& space, const Flow& flow, std::size_t index, const Piece& p, double floor,
+// Where the gap falls through the floor on this piece of the path, with the features in reach of each other.
+double crossing(const ContactSpace& space, const GuidedPath& path, std::size_t index, const Piece& p, double floor,
                 int depth) {
   // The distance to a round corner's centre is no cubic unless the corner turns little about it; but it changes by no
   // more than the corner moves.
@@ -66,7 +66,7 @@ double crossing(const ContactSpace& space, const Flow& flow, std::size_t index, 
     const double radius = space.obstacles.corners[pair.fixed].radius_mm;
     divide = moves > kSharpTurn * (radius + std::min(p.gap, p.gap_end)) && depth <= 40;
   }
-  // The cubic's Bernstein coefficients of degree 4 bound it; what it misses the flow by, with its rate, is nothing at
+  // The cubic's Bernstein coefficients of degree 4 bound it; what it misses the path by, with its rate, is nothing at
   // the ends, so about a multiple of t^2 (1 - t)^2: the middle coefficient alone feels it, by 16 / 6.
   const double third = (p.to - p.from) / 3;
   const double b1 = p.gap + third * p.rate, b2 = p.gap_end - third * p.rate_end;
@@ -82,27 +82,27 @@ double crossing(const ContactSpace& space, const Flow& flow, std::size_t index, 
   if (falls && p.gap < floor) return kInfinity;  // below already, and out of reach
   if (falls) {
     const double target = p.gap > kContact_mm ? 0 : floor;
-    if (p.gap_end >= target) return closes(space, flow, index, flow.at(p.to)) ? p.to : kInfinity;
+    if (p.gap_end >= target) return closes(space, path, index, path.at(p.to)) ? p.to : kInfinity;
     const auto gap_and_rate = [&](double h) {
-      const Configuration q = flow.at(h);
+      const Configuration q = path.at(h);
       ContactState state;
       const double gap = gap_at(space, index, q, state);
-      return std::pair{gap - target, separation_speed(point_of(state), flow.tangent(q))};
+      return std::pair{gap - target, separation_speed(point_of(state), path.rate(h, q))};
     };
     const double at = steep_root(gap_and_rate, p.from, p.to, p.gap - target, p.gap_end - target);
-    return closes(space, flow, index, flow.at(at)) ? at : kInfinity;
+    return closes(space, path, index, path.at(at)) ? at : kInfinity;
   }
-  if (depth > 40) return p.gap_end < floor && closes(space, flow, index, flow.at(p.to)) ? p.to : kInfinity;
+  if (depth > 40) return p.gap_end < floor && closes(space, path, index, path.at(p.to)) ? p.to : kInfinity;
   const double middle = (p.from + p.to) / 2;
-  const Configuration q = flow.at(middle);
+  const Configuration q = path.at(middle);
   ContactState state;
   gap_at(space, index, q, state);
-  const double rate = separation_speed(point_of(state), flow.tangent(q));
+  const double rate = separation_speed(point_of(state), path.rate(middle, q));
   const double found =
-      crossing(space, flow, index, {p.from, middle, p.gap, p.rate, state.gap_mm, rate, p.chord_mm / 16, p.start, q},
+      crossing(space, path, index, {p.from, middle, p.gap, p.rate, state.gap_mm, rate, p.chord_mm / 16, p.start, q},
                floor, depth + 1);
   if (found < kInfinity) return found;
-  return crossing(space, flow, index,
+  return crossing(space, path, index,
                   {middle, p.to, state.gap_mm, rate, p.gap_end, p.rate_end, p.chord_mm / 16, q, p.end}, floor,
                   depth + 1);
 }
@@ -113,7 +113,7 @@ double chord(const Configuration& a, const Configuration& b, double reach) {
   return std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm, reach * (a.theta_rad - b.theta_rad));
 }
 
-bool closes(const ContactSpace& space, const Flow& flow, std::size_t index, const Configuration& q) {
+bool closes(const ContactSpace& space, const GuidedPath& path, std::size_t index, const Configuration& q) {
   Touch touch{space.pairs[index], {}};
   gap_at(space, index, q, touch.state);
   if (!can_touch(space, index, touch.state, q.theta_rad)) return false;
@@ -124,16 +124,16 @@ bool closes(const ContactSpace& space, const Flow& flow, std::size_t index, cons
     touch.pair = space.pairs[other];
     const double gap = gap_at(space, other, q, touch.state);
     if (!can_touch(space, other, touch.state, q.theta_rad) || meeting_of(space, touch) != meeting) continue;
-    if (gap > kOverlap_mm || carries(flow, touch.pair)) return false;
+    if (gap > kOverlap_mm || carries(path, touch.pair)) return false;
   }
   return true;
 }
 
-bool carries(const Flow& flow, const ContactPair& pair) {
-  return std::find(flow.pairs().begin(), flow.pairs().end(), pair) != flow.pairs().end();
+bool carries(const GuidedPath& path, const ContactPair& pair) {
+  return std::find(path.pairs().begin(), path.pairs().end(), pair) != path.pairs().end();
 }
 
-double first_touch(const ContactSpace& space, const Flow& flow, const FlowStep& step) {
+double first_touch(const ContactSpace& space, const GuidedPath& path, const FlowStep& step) {
   std::vector<bool> near_edge(space.edge_boxes.size()), near_corner(space.corner_boxes.size());
   const Configuration &q = step.start, &end = step.end;
   Box swept;
@@ -154,7 +154,7 @@ double first_touch(const ContactSpace& space, const Flow& flow, const FlowStep& 
   for (std::size_t i = 0; i < space.pairs.size(); ++i) {
     const ContactPair& pair = space.pairs[i];
     if (!(pair.kind == ContactKind::CornerOnEdge ? near_edge[pair.fixed] : near_corner[pair.fixed])) continue;
-    if (carries(flow, pair)) continue;
+    if (carries(path, pair)) continue;
     const ContactState a = contact_state(space.part, space.obstacles, pair, q.position(), c0, s0);
     const ContactState b = contact_state(space.part, space.obstacles, pair, end.position(), c1, s1);
     const Piece piece{0,
@@ -167,7 +167,7 @@ double first_touch(const ContactSpace& space, const Flow& flow, const FlowStep& 
                       q,
                       end};
     const double floor = (std::abs(a.gap_mm) <= kContact_mm ? std::min(0.0, a.gap_mm) : 0) - kOverlap_mm;
-    first = std::min(first, crossing(space, flow, i, piece, floor, 0));
+    first = std::min(first, crossing(space, path, i, piece, floor, 0));
   }
   return first;
 }

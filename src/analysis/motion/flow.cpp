@@ -27,7 +27,6 @@ double size(const Twist& twist, double gyration) { return speed(twist, gyration)
 MotionLaw law_of(const Drive& drive, const MovingShape& part) {
   return damped(drive.force, part.gyration_mm, drive.friction);
 }
-ContactPoint point_of(const ContactState& state) { return {state.normal, state.lever}; }
 
 ContactState Flow::state(std::size_t i, const Configuration& q) const {
   return contact_state(space_->part, space_->obstacles, pairs_[i], q.position(), std::cos(q.theta_rad),

@@ -12,15 +12,15 @@
 
 #include "analysis/motion/contact_law.hpp"
 #include "analysis/motion/contact_space.hpp"
+#include "analysis/motion/guided_path.hpp"
 #include "analysis/motion/projection.hpp"
 
 namespace formotion {
 
 // Forces of a Drive as the contact law wants them.
 MotionLaw law_of(const Drive& drive, const MovingShape& part);
-ContactPoint point_of(const ContactState& state);
 
-class Flow {
+class Flow final : public GuidedPath {
  public:
   // The flow through q. motion: consistent there, modes in the order of pairs (all of which carry: none breaks).
   // None if these contacts leave no such motion.
@@ -28,15 +28,16 @@ class Flow {
                                      const Motion& motion, const Configuration& q);
 
   MotionKind kind() const { return kind_; }
-  const std::vector<ContactPair>& pairs() const { return pairs_; }
+  const std::vector<ContactPair>& pairs() const override { return pairs_; }
   const std::vector<ContactMode>& modes() const { return modes_; }
   const Configuration& start() const { return start_; }
 
   // The configuration after h (mm of scaled arc length; rad for pivots and corners sliding on edges). For the
   // integrated kinds one step from the start: h at most longest_step().
-  Configuration at(double h) const;
+  Configuration at(double h) const override;
   // d configuration / d h at a place of this flow.
   Twist tangent(const Configuration& q) const;
+  Twist rate(double, const Configuration& q) const override { return tangent(q); }
   // A look-ahead: small against every feature, large against rounding.
   double small_step() const;
   // Steps no longer than this follow the flow within its error bounds; infinite for translations.

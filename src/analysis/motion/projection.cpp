@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "analysis/motion/first_touch.hpp"
+#include "analysis/motion/flow.hpp"
 
 namespace formotion {
 namespace {

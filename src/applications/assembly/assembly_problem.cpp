@@ -1,0 +1,110 @@
+#include "applications/assembly/assembly_problem.hpp"
+
+#include <set>
+#include <stdexcept>
+
+#include "applications/assembly/judge.hpp"
+
+namespace formotion::assembly {
+namespace {
+
+void collect(const Affine& a, std::set<int>& used) {
+  for (const auto& term : a.terms) used.insert(term.first);
+}
+void collect(const AffineLoop& loop, std::set<int>& used) {
+  for (const AffinePoint& p : loop) {
+    collect(p[0], used);
+    collect(p[1], used);
+  }
+}
+
+std::vector<Topology> topologies_of(const AssemblySpec& spec) {
+  std::vector<Topology> topologies;
+  for (const DesignSpec& design : spec.designs) {
+    std::set<int> used;
+    collect(spec.part.outline_mm, used);
+    for (const AffineLoop& hole : spec.part.holes_mm) collect(hole, used);
+    for (const AffineLoop& loop : design.fixed_mm) collect(loop, used);
+    if (design.chamfer_mm) collect(*design.chamfer_mm, used);
+    for (const Number* number : {&spec.friction, &spec.support.kx, &spec.support.ky, &spec.support.ktheta})
+      collect(number->value, used);
+    for (const Affine& a : spec.support.centre_mm) collect(a, used);
+    const std::size_t shapes = design.fixed_mm.size();
+    topologies.push_back(
+        {std::to_string(shapes) + (shapes == 1 ? " fixed shape" : " fixed shapes"), {used.begin(), used.end()}});
+  }
+  return topologies;
+}
+
+AffineLoop literal(const AffineLoop& loop, std::span<const double> values) {
+  AffineLoop points;
+  for (const AffinePoint& p : loop) points.push_back({Affine{p[0](values), {}}, Affine{p[1](values), {}}});
+  return points;
+}
+
+}  // namespace
+
+struct AssemblyProblem::Model {
+  AssemblySpec spec;
+  std::vector<Topology> topologies;
+};
+
+AssemblyProblem::AssemblyProblem(AssemblySpec spec) : model_(std::make_unique<Model>()) {
+  model_->topologies = topologies_of(spec);
+  model_->spec = std::move(spec);
+}
+AssemblyProblem::~AssemblyProblem() = default;
+
+std::span<const Variable> AssemblyProblem::variables() const { return model_->spec.variables; }
+std::span<const Topology> AssemblyProblem::topologies() const { return model_->topologies; }
+std::span<const Objective> AssemblyProblem::objectives() const { return model_->spec.objectives; }
+const AssemblySpec& AssemblyProblem::spec() const { return model_->spec; }
+
+std::vector<double> AssemblyProblem::all_values(const Candidate& candidate) const {
+  std::vector<double> values;
+  for (const Variable& variable : model_->spec.variables) values.push_back(variable.start());
+  const std::vector<int>& used = model_->topologies[candidate.topology].variables;
+  for (std::size_t i = 0; i < used.size(); ++i) values[used[i]] = candidate.values[i];
+  return values;
+}
+
+Score AssemblyProblem::score(const Candidate& candidate, Memory*) const {
+  const Judged judged = judge(model_->spec, candidate.topology, all_values(candidate), false);
+  const AssemblyEvaluation& evaluation = judged.evaluation;
+  Score score;
+  score.feasible = evaluation.feasible;
+  score.violation = judged.violation;
+  score.work = judged.work;
+  const std::optional<Metrics>& worst = evaluation.worst_case;
+  for (const Objective& o : model_->spec.objectives) {
+    score.objectives.push_back(objective(model_->spec.robust && worst ? *worst : evaluation.metrics, o.name));
+    if (worst) score.worst_case.push_back(objective(*worst, o.name));
+  }
+  score.bites = evaluation.bites;
+  if (!model_->spec.uncertainty.any()) score.worst_case = score.objectives;
+  return score;
+}
+
+AssemblyEvaluation AssemblyProblem::evaluate(int topology, std::span<const double> values) const {
+  return judge(model_->spec, topology, values, true).evaluation;
+}
+
+Joint AssemblyProblem::joint(int topology, std::span<const double> values) const {
+  return joint_of(model_->spec, topology, values);
+}
+
+std::unique_ptr<Scene> AssemblyProblem::scene(int topology, std::span<const double> values, const std::string& aspect,
+                                              double orientation_rad) const {
+  if (!defects(model_->spec, topology, values).empty()) throw std::logic_error("a scene of shapes that are not valid");
+  return scene_of(model_->spec, topology, values, aspect, orientation_rad);
+}
+
+DesignSpec AssemblyProblem::literal_design(int topology, std::span<const double> values) const {
+  const DesignSpec& design = model_->spec.designs[topology];
+  DesignSpec literal_one;
+  for (const AffineLoop& loop : design.fixed_mm) literal_one.fixed_mm.push_back(literal(loop, values));
+  if (design.chamfer_mm) literal_one.chamfer_mm = Affine{(*design.chamfer_mm)(values), {}};
+  return literal_one;
+}
+
+}  // namespace formotion::assembly

@@ -1,0 +1,317 @@
+#include "applications/assembly/judge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "analysis/insertion/exclusion.hpp"
+
+namespace formotion::assembly {
+namespace {
+
+constexpr double kWithin_mm = 1e-6;  // of a never-goal's depth
+
+const InsertionOptions kNoPath{};
+
+// Five values of an interval at most: ends, middle, quarters.
+std::vector<double> values_of(const Interval& interval, int count) {
+  if (interval.is_single() || count < 2) return {(interval.min + interval.max) / 2};
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) values.push_back(interval.min + i * (interval.max - interval.min) / (count - 1));
+  return values;
+}
+
+StartResult started(const InsertionTask& task, double x_mm, double y_mm, double theta_rad) {
+  return {x_mm, y_mm, theta_rad, insert(task, start_with_errors(task, x_mm, y_mm, theta_rad), kNoPath)};
+}
+
+std::vector<StartResult> grid(const InsertionTask& task, const StartsSpec& starts, int count) {
+  std::vector<StartResult> results;
+  for (const double theta : values_of(starts.theta_rad, count)) {
+    for (const double y : values_of(starts.y_mm, std::min(count, 3))) {
+      for (const double x : values_of(starts.x_mm, count)) results.push_back(started(task, x, y, theta));
+    }
+  }
+  return results;
+}
+
+// The largest values along all insertions that are projected for a design.
+struct Peaks {
+  double axial_n = 0, lateral_n = 0, work_nmm = 0;
+  void take(const Insertion& insertion) {
+    axial_n = std::max(axial_n, insertion.peak_axial_n);
+    lateral_n = std::max(lateral_n, insertion.peak_lateral_n);
+    work_nmm = std::max(work_nmm, insertion.work_nmm);
+  }
+};
+
+class DesignJudge {
+ public:
+  DesignJudge(const AssemblySpec& spec, int topology, std::span<const double> values, bool in_detail)
+      : spec_(spec), topology_(topology), values_(values), in_detail_(in_detail) {}
+
+  Judged run() {
+    Judged judged;
+    AssemblyEvaluation& evaluation = judged.evaluation;
+    evaluation.violations = defects(spec_, topology_, values_);
+    if (!evaluation.violations.empty()) {
+      judged.violation = 1000;
+      for (const Violation& violation : evaluation.violations) judged.violation += violation.by;
+      return judged;
+    }
+    evaluation.metrics = member_metrics({}, &evaluation);
+    worst_case(evaluation);
+    const Metrics& metrics = spec_.robust && evaluation.worst_case ? *evaluation.worst_case : evaluation.metrics;
+    require(metrics, evaluation, judged.violation);
+    if (in_detail_) friction_limit(evaluation);
+    evaluation.feasible = evaluation.violations.empty();
+    if (evaluation.feasible) judged.violation = 0;
+    judged.work = work_;
+    return judged;
+  }
+
+ private:
+  // Everything that one set of uncertain values gives; what is not a number goes to the evaluation, if it is given.
+  Metrics member_metrics(const Member& member, AssemblyEvaluation* evaluation) {
+    Metrics metrics;
+    metrics.chamfer_mm = spec_.designs[topology_].chamfer_mm
+                             ? (*spec_.designs[topology_].chamfer_mm)(values_)
+                             : measured_chamfer_mm(joint_of(spec_, topology_, values_), spec_.approach.direction_rad);
+    const std::unique_ptr<Scene> scene = scene_of(spec_, topology_, values_, "up", 0, member);
+    if (!scene) return metrics;
+    success(scene->task, metrics, evaluation);
+    never(member, metrics, evaluation);
+    return metrics;
+  }
+
+  void success(const InsertionTask& task, Metrics& metrics, AssemblyEvaluation* evaluation) {
+    const StartsSpec& starts = spec_.goal.starts;
+    Peaks peaks;
+    RegionOptions options;
+    if (!in_detail_) {
+      options.starts_a_row = 5;
+      options.rows = 3;
+      options.most_rows = 9;
+      options.boundary = 1e-4;
+      options.history = 1.0 / 16;
+      options.row_error = 0.02;
+    }
+    double share = 0, capture = 1, weight_sum = 0;
+    const std::vector<double> ys = values_of(starts.y_mm, 3);
+    for (std::size_t i = 0; i < ys.size(); ++i) {
+      const double y = ys[i], weight = ys.size() == 3 && i == 1 ? 4 : 1;  // Simpson's rule
+      const auto at = [&](double x, double theta) {
+        const StartResult result = started(task, x, y, theta);
+        peaks.take(result.insertion);
+        ++work_;
+        return StartOutcome{static_cast<int>(result.insertion.outcome), result.insertion.history};
+      };
+      const ErrorBox box{starts.x_mm.min, starts.x_mm.max, starts.theta_rad.min, starts.theta_rad.max};
+      const OutcomeRegion region = outcome_region(box, at, options);
+      const int wanted = static_cast<int>(InsertionOutcome::Assembled);
+      share += weight * share_of(region, wanted);
+      weight_sum += weight;
+      capture = std::min(capture, largest_scaled_box(region, wanted, at, options));
+      if (evaluation) {
+        evaluation->regions.push_back(region);
+        evaluation->region_y_mm.push_back(y);
+      }
+    }
+    if (evaluation) {
+      evaluation->starts = grid(task, starts, in_detail_ ? 5 : 3);
+      for (const StartResult& start : evaluation->starts) peaks.take(start.insertion);
+    }
+    metrics.success_fraction = share / weight_sum;
+    if (!starts.x_mm.is_single()) metrics.capture_mm = capture * (starts.x_mm.max - starts.x_mm.min) / 2;
+    if (!starts.theta_rad.is_single())
+      metrics.capture_deg = capture * (starts.theta_rad.max - starts.theta_rad.min) / 2 * 180 / std::numbers::pi;
+    metrics.peak_force_n = peaks.axial_n;
+    metrics.peak_lateral_force_n = peaks.lateral_n;
+    metrics.work_nmm = peaks.work_nmm;
+  }
+
+  void never(const Member& member, Metrics& metrics, AssemblyEvaluation* evaluation) {
+    for (const NeverSpec& goal : spec_.goal.never) {
+      const std::vector<std::string> aspects = goal.aspect == "any" && spec_.part.flips
+                                                   ? std::vector<std::string>{"up", "down"}
+                                               : goal.aspect == "any" ? std::vector<std::string>{"up"}
+                                                                      : std::vector<std::string>{goal.aspect};
+      for (const std::string& aspect : aspects) {
+        const std::unique_ptr<Scene> scene = scene_of(spec_, topology_, values_, aspect, goal.orientation_rad, member);
+        if (!scene) continue;
+        NeverResult result = wrong(*scene, goal);
+        result.aspect = aspect;
+        const double margin = spec_.goal.depth_mm - result.deepest.insertion.deepest_mm;
+        metrics.depth_margin_mm = std::min(metrics.depth_margin_mm.value_or(margin), margin);
+        if (evaluation) evaluation->never.push_back(std::move(result));
+      }
+    }
+  }
+
+  // Depth alone counts, wherever the wrong part stands; its deepest way is the adverse one.
+  NeverResult wrong(Scene& scene, const NeverSpec& goal) {
+    constexpr double kAnywhere = 1e9;
+    scene.task.goal = {spec_.goal.depth_mm, kAnywhere, kAnywhere};
+    const StartsSpec& starts = goal.starts ? *goal.starts : spec_.goal.starts;
+    NeverResult result;
+    result.orientation_rad = goal.orientation_rad;
+    const std::vector<StartResult> ends = grid(scene.task, starts, in_detail_ ? 9 : 3);
+    result.starts = static_cast<int>(ends.size());
+    work_ += result.starts;
+    result.deepest = *std::max_element(ends.begin(), ends.end(), [](const StartResult& a, const StartResult& b) {
+      return a.insertion.deepest_mm < b.insertion.deepest_mm;
+    });
+    result.holds = result.deepest.insertion.deepest_mm < spec_.goal.depth_mm - kWithin_mm;
+    if (!in_detail_ || !result.holds) return result;
+    const StartBox box{starts.x_mm.min, starts.x_mm.max,      starts.y_mm.min,
+                       starts.y_mm.max, starts.theta_rad.min, starts.theta_rad.max};
+    const Exclusion exclusion = deepest_reachable(scene.task, box, spec_.goal.depth_mm);
+    result.proved = exclusion.proved;
+    if (exclusion.proved) result.bound_mm = exclusion.bound_mm;
+    result.why = exclusion.why;
+    return result;
+  }
+
+  // One uncertain quantity at an end of its interval at a time, then all at those ends that were worse.
+  void worst_case(AssemblyEvaluation& evaluation) {
+    if (!spec_.uncertainty.any() || spec_.objectives.empty()) return;
+    const Uncertainty& u = spec_.uncertainty;
+    std::vector<Member> members;
+    for (const auto& [name, range] : u.intervals) {
+      for (const double end : {range.first, range.second}) members.push_back({name, {{name, end}}, 0, Point::Zero()});
+    }
+    for (const auto& [name, by] : {std::pair{"outline_mm", u.outline_mm}, {"feature_mm", u.feature_mm}}) {
+      for (const double end : {-by, by}) {
+        if (by > 0) members.push_back({name, {}, end, Point::Zero()});
+      }
+    }
+    for (const Point& way : {Point(1, 0), Point(-1, 0), Point(0, 1), Point(0, -1)}) {
+      if (u.centre_mm > 0) members.push_back({"center_mm", {}, 0, u.centre_mm * way});
+    }
+    std::map<std::string, std::pair<double, Member>> worse;  // the worse end of every quantity
+    const Objective& first = spec_.objectives.front();
+    const double nominal = first.loss(objective(evaluation.metrics, first.name));
+    Metrics worst = evaluation.metrics;
+    double bite = 0;
+    for (const Member& member : members) {
+      const Metrics metrics = member_metrics(member, nullptr);
+      take_worse(worst, metrics);
+      const double loss = first.loss(objective(metrics, first.name)) - nominal;
+      if (!worse.count(member.name) || loss > worse[member.name].first) worse[member.name] = {loss, member};
+      if (loss > bite || !evaluation.bites) {
+        bite = std::max(bite, loss);
+        evaluation.bites = member.name;
+      }
+    }
+    Member all;
+    for (const auto& [name, end] : worse) {
+      all.values.insert(end.second.values.begin(), end.second.values.end());
+      all.grow_mm += end.second.grow_mm;
+      all.centre_off_mm += end.second.centre_off_mm;
+    }
+    if (worse.size() > 1) take_worse(worst, member_metrics(all, nullptr));
+    evaluation.worst_case = worst;
+  }
+
+  static void take_worse(Metrics& worst, const Metrics& other) {
+    const auto least = [](std::optional<double>& a, const std::optional<double>& b) {
+      if (a && b) a = std::min(*a, *b);
+    };
+    worst.success_fraction = std::min(worst.success_fraction, other.success_fraction);
+    least(worst.capture_mm, other.capture_mm);
+    least(worst.capture_deg, other.capture_deg);
+    least(worst.depth_margin_mm, other.depth_margin_mm);
+    worst.peak_force_n = std::max(worst.peak_force_n, other.peak_force_n);
+    worst.peak_lateral_force_n = std::max(worst.peak_lateral_force_n, other.peak_lateral_force_n);
+    worst.work_nmm = std::max(worst.work_nmm, other.work_nmm);
+  }
+
+  void require(const Metrics& metrics, AssemblyEvaluation& evaluation, double& violation) const {
+    const auto add = [&](const std::string& what, const std::string& where, double by) {
+      evaluation.violations.push_back({what, where, by});
+      violation += by;
+    };
+    if (!(metrics.success_fraction > 0)) {
+      double deepest = 0;
+      for (const StartResult& start : evaluation.starts) deepest = std::max(deepest, start.insertion.deepest_mm);
+      add("no start ends assembled", "/goal/starts", 1 + std::max(0.0, spec_.goal.depth_mm - deepest));
+    }
+    for (std::size_t i = 0; i < evaluation.never.size(); ++i) {
+      const NeverResult& result = evaluation.never[i];
+      if (result.holds) continue;
+      const double by = std::max(kWithin_mm, result.deepest.insertion.deepest_mm - spec_.goal.depth_mm + 1);
+      add("a part held wrongly (" + result.aspect + ") reaches the depth", "/goal/never", by);
+    }
+    for (const Bound& bound : spec_.bounds) {
+      const double value = objective(metrics, bound.metric);
+      if (bound.min && value < *bound.min)
+        add(bound.metric + " is below its bound", "/goal/require/" + bound.metric, *bound.min - value);
+      if (bound.max && value > *bound.max)
+        add(bound.metric + " is above its bound", "/goal/require/" + bound.metric, value - *bound.max);
+    }
+  }
+
+  // Where starts that assemble no longer do when friction grows: halved down, among the corners of the box.
+  void friction_limit(AssemblyEvaluation& evaluation) {
+    const std::unique_ptr<Scene> scene = scene_of(spec_, topology_, values_, "up", 0);
+    std::vector<StartResult> assembled;
+    for (const StartResult& start : evaluation.starts) {
+      if (start.insertion.outcome == InsertionOutcome::Assembled) assembled.push_back(start);
+    }
+    const auto failure = [&](double friction) -> std::optional<InsertionOutcome> {
+      scene->task.friction = friction;
+      for (const StartResult& start : assembled) {
+        const StartResult now = started(scene->task, start.x_mm, start.y_mm, start.theta_rad);
+        ++work_;
+        if (now.insertion.outcome != InsertionOutcome::Assembled) return now.insertion.outcome;
+      }
+      return std::nullopt;
+    };
+    if (assembled.empty()) return;
+    double low = scene->task.friction, high = low;
+    std::optional<InsertionOutcome> as;
+    for (double step = 0.1; step < 4 && !as; step *= 2) {
+      high = low + step;
+      as = failure(high);
+      if (!as) low = high;
+    }
+    if (!as) return;
+    for (int i = 0; i < 12; ++i) {
+      const double middle = (low + high) / 2;
+      if (const auto now = failure(middle)) {
+        high = middle;
+        as = now;
+      } else {
+        low = middle;
+      }
+    }
+    evaluation.fails_at_friction = high;
+    evaluation.fails_as = as;
+  }
+
+  const AssemblySpec& spec_;
+  int topology_;
+  std::span<const double> values_;
+  bool in_detail_;
+  std::int64_t work_ = 0;
+};
+
+}  // namespace
+
+double objective(const Metrics& metrics, const std::string& name) {
+  if (name == "success_fraction") return metrics.success_fraction;
+  if (name == "capture_mm") return metrics.capture_mm.value_or(0);
+  if (name == "capture_deg") return metrics.capture_deg.value_or(0);
+  if (name == "chamfer_mm") return metrics.chamfer_mm;
+  if (name == "depth_margin_mm") return metrics.depth_margin_mm.value_or(0);
+  if (name == "peak_force_n") return metrics.peak_force_n;
+  if (name == "peak_lateral_force_n") return metrics.peak_lateral_force_n;
+  return metrics.work_nmm;
+}
+
+Judged judge(const AssemblySpec& spec, int topology, std::span<const double> values, bool in_detail) {
+  return DesignJudge(spec, topology, values, in_detail).run();
+}
+
+}  // namespace formotion::assembly

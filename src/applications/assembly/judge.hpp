@@ -1,0 +1,43 @@
+// One design of an assembly judged: all its insertions, projected from the whole box of starts.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "applications/assembly/assembly_problem.hpp"
+
+namespace formotion::assembly {
+
+// What uncertain quantities are worth in one judgement; nominal: none given, nothing grown.
+struct Member {
+  std::string name;                      // of what differs from nominal; empty: nothing
+  std::map<std::string, double> values;  // of intervals
+  double grow_mm = 0;                    // of the fixed shapes
+  Point centre_off_mm = Point::Zero();   // of the compliance centre
+};
+
+// Why the shapes of a design cannot be used; empty if they can.
+std::vector<Violation> defects(const AssemblySpec& spec, int topology, std::span<const double> values);
+
+Joint joint_of(const AssemblySpec& spec, int topology, std::span<const double> values);
+// Null where shapes vanish when they are grown.
+std::unique_ptr<Scene> scene_of(const AssemblySpec& spec, int topology, std::span<const double> values,
+                                const std::string& aspect, double orientation_rad, const Member& member = {});
+
+struct Judged {
+  AssemblyEvaluation evaluation;
+  double violation = 0;
+  std::int64_t work = 0;  // starts projected
+};
+// in_detail: finer regions, proofs and limits, as people want them; else what a search needs.
+Judged judge(const AssemblySpec& spec, int topology, std::span<const double> values, bool in_detail);
+
+// The value of an objective; what does not exist counts as the worst one.
+double objective(const Metrics& metrics, const std::string& name);
+
+// The largest extent across the approach of a run of slanted faces of the fixed shapes and the part: more than 3
+// degrees from the approach and from its perpendicular.
+double measured_chamfer_mm(const Joint& joint, double approach_rad);
+
+}  // namespace formotion::assembly
