@@ -16,7 +16,8 @@ double slide_sign(ContactMode mode) { return mode == ContactMode::SlideLeft ? 1 
 
 double left_of(const DirectionRange& range, double direction) {
   const double off = std::remainder(direction - range.from_rad - range.width_rad / 2, 2 * std::numbers::pi);
-  return range.width_rad / 2 + kContact_rad - std::abs(off);
+  // Less than the slack of touching: where one feature gives way to the next both still touch.
+  return range.width_rad / 2 + kContact_rad / 2 - std::abs(off);
 }
 
 }  // namespace
