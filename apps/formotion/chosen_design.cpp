@@ -8,8 +8,15 @@
 
 namespace formotion {
 
+ProblemFile read_feeder_problem(const std::string& path) {
+  ProblemFile file = read_problem_file(path);
+  if (file.kind != "feeder")
+    throw InputError({{path, "/kind", false, "'" + file.kind + "', which validate alone takes so far", "feeder"}});
+  return file;
+}
+
 ChosenDesign chosen_design(const DesignChoice& choice) {
-  ProblemFile file = read_problem_file(choice.problem);
+  ProblemFile file = read_feeder_problem(choice.problem);
   std::vector<std::pair<std::string, double>> given;
   if (!choice.design.empty()) apply_design_file(file, choice.design, given);
 

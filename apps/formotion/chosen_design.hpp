@@ -17,6 +17,9 @@ struct ChosenDesign {
   std::vector<double> values;  // of all the problem's variables: given ones, else starting values
 };
 
+// As read_problem_file; InputError for problems of kinds that are not scored yet.
+ProblemFile read_feeder_problem(const std::string& path);
+
 // Throws InputError for what the choice names wrongly.
 ChosenDesign chosen_design(const DesignChoice& choice);
 

@@ -31,8 +31,9 @@ int run_validate(const std::string& problem, bool folder_only) {
     std::cout << default_folder(file) << "\n";
     return kDone;
   }
-  std::cout << problem << ": good: " << file.kind << ", " << file.feeder.part.aspects.size() << " aspects, "
-            << file.feeder.designs.size() << " topologies, " << file.feeder.variables.size() << " variables\n";
+  const std::size_t aspects = file.assembly ? (file.assembly->part.flips ? 2 : 1) : file.feeder.part.aspects.size();
+  std::cout << problem << ": good: " << file.kind << ", " << aspects << " aspects, " << topologies_in(file)
+            << " topologies, " << variables_of(file).size() << " variables\n";
   if (!file.feeder.grammar) return kDone;
   std::int64_t pruned = 0;
   for (const feeder::PrunedSequences& entry : file.feeder.grammar->pruned) pruned += entry.count;

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <memory>
 
+#include "chosen_design.hpp"
 #include "cluster/work_queue_engine.hpp"
 #include "commands.hpp"
 #include "optimize/guarded_problem.hpp"
@@ -87,7 +88,7 @@ int search_and_write(RunStore& store, RunState& state, const ProblemFile& file, 
 }  // namespace
 
 int run_optimize(const RunOptions& options) {
-  const ProblemFile file = read_problem_file(options.problem);
+  const ProblemFile file = read_feeder_problem(options.problem);
   const feeder::FeederProblem problem(file.feeder);
   const std::string folder = options.out.empty() ? default_folder(file) : options.out;
   const RunIdentity identity{file.canonical, options.problem, FORMOTION_VERSION,

@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "applications/feeder/feeder_problem.hpp"
+#include "chosen_design.hpp"
 #include "cluster/supervised_work.hpp"
 #include "commands.hpp"
 #include "io/problem_file.hpp"
@@ -15,7 +16,7 @@ int run_work(const WorkFiles& files) {
   const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
   if (!stream) throw StoreError(files.order + ": cannot be read");
   const WorkReport report = supervised(decoded_order(bytes), [&]() -> std::unique_ptr<Problem> {
-    return std::make_unique<feeder::FeederProblem>(read_problem_file(files.problem).feeder);
+    return std::make_unique<feeder::FeederProblem>(read_feeder_problem(files.problem).feeder);
   });
   write_file(files.report, encoded(report));
   return kDone;

@@ -10,6 +10,7 @@
 #include "applications/feeder/inverse_goals.hpp"
 #include "io/json_document.hpp"
 #include "io/problem_reader.hpp"
+#include "io/read_assembly.hpp"
 #include "io/suggestion.hpp"
 
 namespace formotion {
@@ -72,8 +73,7 @@ std::vector<Variable> read_variables(const Json* value, IssueList& issues) {
   return variables;
 }
 
-std::vector<Objective> read_objectives(const Json* value, IssueList& issues) {
-  const std::span<const Objective> known = feeder::known_objectives();
+std::vector<Objective> read_objectives(const Json* value, std::span<const Objective> known, IssueList& issues) {
   if (!value) return {known.begin(), known.begin() + 3};
   std::vector<std::string> names;
   for (const Objective& objective : known) names.push_back(objective.name);
@@ -113,18 +113,21 @@ std::optional<std::int64_t> whole_number(ObjectReader& object, const std::string
   return static_cast<std::int64_t>(*number);
 }
 
-void read_search(const Json* value, ProblemFile& file, IssueList& issues) {
+// Objectives and robustness into a specification of either kind.
+template <class Spec>
+void read_search(const Json* value, std::span<const Objective> known, ProblemFile& file, Spec& spec,
+                 IssueList& issues) {
   if (!value) {
-    file.feeder.objectives = read_objectives(nullptr, issues);
+    spec.objectives = read_objectives(nullptr, known, issues);
     return;
   }
   ObjectReader object(*value, "/search", issues);
   file.search.evaluations =
       whole_number(object, "evaluations", 1, kMostEvaluations, issues).value_or(file.search.evaluations);
   file.search.seed = static_cast<std::uint64_t>(whole_number(object, "seed", 0, kLargestSeed, issues).value_or(1));
-  file.feeder.objectives = read_objectives(object.find("objectives"), issues);
-  file.feeder.robust = object.boolean_or("robust", false);
-  if (file.feeder.robust && !file.feeder.uncertainty.any())
+  spec.objectives = read_objectives(object.find("objectives"), known, issues);
+  spec.robust = object.boolean_or("robust", false);
+  if (spec.robust && !spec.uncertainty.any())
     issues.add("/search/robust", "true", "something under uncertainty to be robust against");
   object.finish();
 }
@@ -140,6 +143,18 @@ feeder::DesignSpec read_design(const Json& value, const std::string& pointer, co
   return read_features(*features, pointer + "/features", context, canonical["features"]);
 }
 
+// The list of topologies; read(value, pointer, canonical) adds one.
+template <class Read>
+void read_topologies(const Json* topologies, ReadContext& context, const Read& read) {
+  if (!topologies) return;
+  if (!topologies->is_array() || topologies->empty()) {
+    context.issues.add("/topologies", described(*topologies), "an array of designs");
+    return;
+  }
+  for (std::size_t i = 0; i < topologies->size(); ++i)
+    read((*topologies)[i], "/topologies/" + std::to_string(i), context.canonical["topologies"][i]);
+}
+
 void read_designs(ObjectReader& object, ProblemFile& file, ReadContext& context) {
   const Json* design = object.find("design");
   const Json* topologies = object.find("topologies");
@@ -150,17 +165,26 @@ void read_designs(ObjectReader& object, ProblemFile& file, ReadContext& context)
       context.issues.add("", count == 0 ? "no design" : "more than one of design, topologies and grammar",
                          "exactly one of design, topologies and grammar");
   }
+  const auto add = [&](const Json& value, const std::string& pointer, Json& canonical) {
+    file.feeder.designs.push_back(read_design(value, pointer, {}, context, canonical));
+  };
   if (grammar) file.feeder.grammar = read_grammar(*grammar, context);
-  if (design) file.feeder.designs.push_back(read_design(*design, "/design", {}, context, context.canonical["design"]));
-  if (!topologies) return;
-  if (!topologies->is_array() || topologies->empty()) {
-    context.issues.add("/topologies", described(*topologies), "an array of designs");
-    return;
-  }
-  for (std::size_t i = 0; i < topologies->size(); ++i) {
-    file.feeder.designs.push_back(read_design((*topologies)[i], "/topologies/" + std::to_string(i), {}, context,
-                                              context.canonical["topologies"][i]));
-  }
+  if (design) add(*design, "/design", context.canonical["design"]);
+  read_topologies(topologies, context, add);
+}
+
+void read_fixed_designs(ObjectReader& object, assembly::AssemblySpec& spec, ReadContext& context) {
+  const Json* design = object.find("design");
+  const Json* topologies = object.find("topologies");
+  if (object.find("grammar"))
+    context.issues.add("/grammar", "a grammar", "design or topologies: there is no grammar of an assembly's shapes");
+  else if ((design != nullptr) == (topologies != nullptr))
+    context.issues.add("", design ? "both design and topologies" : "no design", "exactly one of design and topologies");
+  const auto add = [&](const Json& value, const std::string& pointer, const Json&) {
+    spec.designs.push_back(read_fixed_shapes(value, pointer, {}, context));
+  };
+  if (design) add(*design, "/design", context.canonical["design"]);
+  read_topologies(topologies, context, add);
 }
 
 // The names that occur in the strings of a value.
@@ -180,15 +204,16 @@ void collect_names(const Json& value, std::set<std::string>& names) {
   }
 }
 
-void check_variables_used(const Json& document, const feeder::FeederSpec& spec, IssueList& issues) {
+// keys: where expressions may stand; of_grammar: the names that a grammar gives.
+void check_variables_used(const Json& document, const std::vector<const char*>& keys,
+                          const std::vector<Variable>& variables, const std::vector<std::string>& of_grammar,
+                          IssueList& issues) {
   std::set<std::string> used;
-  for (const char* key : {"part", "design", "topologies"}) {
+  for (const char* key : keys) {
     if (document.contains(key)) collect_names(document[key], used);
   }
-  std::vector<std::string> of_grammar;
-  if (spec.grammar) of_grammar = feeder::variable_names(*spec.grammar);
   used.insert(of_grammar.begin(), of_grammar.end());
-  for (const Variable& variable : spec.variables) {
+  for (const Variable& variable : variables) {
     if (!is_name(variable.name) || used.count(variable.name)) continue;
     const std::string guess = did_you_mean(variable.name, of_grammar);
     issues.add("/variables/" + variable.name, "a variable that nothing uses" + guess,
@@ -198,17 +223,70 @@ void check_variables_used(const Json& document, const feeder::FeederSpec& spec, 
 }
 
 void read_kind(ObjectReader& object, ProblemFile& file, IssueList& issues) {
-  object.require("kind", "feeder");
+  object.require("kind", "feeder or assembly");
   const auto kind = object.string("kind");
-  if (!kind || *kind == "feeder") {
-    file.kind = "feeder";
-  } else if (*kind == "assembly" || *kind == "fixture" || *kind == "pallet") {
-    issues.add("/kind", "'" + *kind + "', which this version does not know yet", "feeder");
+  file.kind = kind == "assembly" ? "assembly" : "feeder";
+  if (!kind || *kind == file.kind) return;
+  if (*kind == "fixture" || *kind == "pallet") {
+    issues.add("/kind", "'" + *kind + "', which this version does not know yet", "feeder or assembly");
   } else {
     issues.add("/kind",
                "the unknown kind '" + *kind + "'" + did_you_mean(*kind, {"feeder", "assembly", "fixture", "pallet"}),
-               "feeder");
+               "feeder or assembly");
   }
+}
+
+void read_feeder(ObjectReader& object, const Json& document, ProblemFile& file, ReadContext& context) {
+  IssueList& issues = context.issues;
+  bool part_is_good = false;
+  if (const Json* part = object.require("part", "a part")) {
+    const std::size_t before = issues.issues.size();
+    file.feeder.part = read_part(*part, context);
+    part_is_good = issues.issues.size() == before;
+  }
+  file.feeder.environment = read_environment(object.find("environment"), context);
+  read_designs(object, file, context);
+  if (const Json* goal = object.require("goal", "a goal: {\"deliver\": ...}")) {
+    const std::size_t before = issues.issues.size();
+    file.feeder.goal = read_goal(*goal, file.feeder.part, context);
+    if (part_is_good && issues.issues.size() == before) {
+      if (const auto found = feeder::goal_defect(file.feeder))
+        issues.add("/goal/deliver", (*goal)["deliver"].dump(), *found);
+      if (issues.issues.empty()) {
+        if (const auto found = feeder::place_references(file.feeder))
+          issues.add("/goal/facets/" + std::to_string(found->first), found->second, "a facet at the starting values");
+      }
+    }
+  }
+  file.feeder.manufacture = read_manufacture(object.find("manufacture"), context);
+  file.feeder.uncertainty = read_uncertainty(object.find("uncertainty"), context);
+  read_search(object.find("search"), feeder::known_objectives(), file, file.feeder, issues);
+  object.finish();
+  std::vector<std::string> of_grammar;
+  if (file.feeder.grammar) of_grammar = feeder::variable_names(*file.feeder.grammar);
+  check_variables_used(document, {"part", "design", "topologies"}, file.feeder.variables, of_grammar, issues);
+  issues.throw_if_any();
+  if (file.feeder.grammar) {
+    if (!file.feeder.goal.facets.empty())
+      issues.add("/goal/facets", "facets on tracks of a grammar, which have none in common", "a goal without facets");
+    expand_grammar(file.feeder, issues);
+  }
+  issues.throw_if_any();
+}
+
+void read_assembly(ObjectReader& object, const Json& document, ProblemFile& file, ReadContext& context) {
+  IssueList& issues = context.issues;
+  assembly::AssemblySpec& spec = *file.assembly;
+  if (const Json* part = object.require("part", "a part")) spec.part = read_assembly_part(*part, context);
+  read_assembly_environment(object.find("environment"), spec, context);
+  read_fixed_designs(object, spec, context);
+  if (const Json* goal = object.require("goal", "a goal: {\"depth_mm\", \"lateral_mm\", \"tilt_deg\", ...}"))
+    read_assembly_goal(*goal, spec, context);
+  read_assembly_uncertainty(object.find("uncertainty"), spec, context);
+  read_search(object.find("search"), assembly::known_objectives(), file, spec, issues);
+  object.finish();
+  check_variables_used(document, {"part", "environment", "design", "topologies"}, spec.variables, {}, issues);
+  issues.throw_if_any();
 }
 
 }  // namespace
@@ -234,44 +312,26 @@ ProblemFile parse_problem(const std::string& text, const std::string& path) {
   read_kind(object, file, issues);
   object.ignore({"run"});  // of problem.json in a run's folder: how it was run
 
-  file.feeder.variables = read_variables(object.find("variables"), issues);
+  if (file.kind == "assembly") file.assembly.emplace();
+  (file.assembly ? file.assembly->variables : file.feeder.variables) = read_variables(object.find("variables"), issues);
   ReadContext context{issues, std::filesystem::path(path).parent_path().string(), {}, canonical};
-  for (const Variable& variable : file.feeder.variables) context.names.push_back(variable.name);
+  for (const Variable& variable : variables_of(file)) context.names.push_back(variable.name);
 
-  bool part_is_good = false;
-  if (const Json* part = object.require("part", "a part")) {
-    const std::size_t before = issues.issues.size();
-    file.feeder.part = read_part(*part, context);
-    part_is_good = issues.issues.size() == before;
+  if (file.assembly) {
+    read_assembly(object, document, file, context);
+  } else {
+    read_feeder(object, document, file, context);
   }
-  file.feeder.environment = read_environment(object.find("environment"), context);
-  read_designs(object, file, context);
-  if (const Json* goal = object.require("goal", "a goal: {\"deliver\": ...}")) {
-    const std::size_t before = issues.issues.size();
-    file.feeder.goal = read_goal(*goal, file.feeder.part, context);
-    if (part_is_good && issues.issues.size() == before) {
-      if (const auto found = feeder::goal_defect(file.feeder))
-        issues.add("/goal/deliver", (*goal)["deliver"].dump(), *found);
-      if (issues.issues.empty()) {
-        if (const auto found = feeder::place_references(file.feeder))
-          issues.add("/goal/facets/" + std::to_string(found->first), found->second, "a facet at the starting values");
-      }
-    }
-  }
-  file.feeder.manufacture = read_manufacture(object.find("manufacture"), context);
-  file.feeder.uncertainty = read_uncertainty(object.find("uncertainty"), context);
-  read_search(object.find("search"), file, issues);
-  object.finish();
-  check_variables_used(document, file.feeder, issues);
-  issues.throw_if_any();
-  if (file.feeder.grammar) {
-    if (!file.feeder.goal.facets.empty())
-      issues.add("/goal/facets", "facets on tracks of a grammar, which have none in common", "a goal without facets");
-    expand_grammar(file.feeder, issues);
-  }
-  issues.throw_if_any();
   file.canonical = canonical.dump(2);
   return file;
+}
+
+std::span<const Variable> variables_of(const ProblemFile& file) {
+  return file.assembly ? file.assembly->variables : file.feeder.variables;
+}
+
+std::size_t topologies_in(const ProblemFile& file) {
+  return file.assembly ? file.assembly->designs.size() : file.feeder.designs.size();
 }
 
 ProblemFile read_problem_file(const std::string& path) { return parse_problem(read_text_file(path), path); }
@@ -282,11 +342,15 @@ void apply_design_file(ProblemFile& problem, const std::string& path,
   IssueList issues{path, {}};
   Json canonical = document;
   ReadContext context{issues, std::filesystem::path(path).parent_path().string(), {}, canonical};
-  for (const Variable& variable : problem.feeder.variables) context.names.push_back(variable.name);
-  // What pareto.json and exports say beside the features.
+  for (const Variable& variable : variables_of(problem)) context.names.push_back(variable.name);
+  // What pareto.json and exports say beside the features or shapes.
   const std::vector<std::string> beside{"id",         "topology", "values",     "metrics", "worst_case",
                                         "provenance", "feasible", "violations", "label"};
-  problem.feeder.designs = {read_design(document, "", beside, context, canonical)};
+  if (problem.assembly) {
+    problem.assembly->designs = {read_fixed_shapes(document, "", beside, context)};
+  } else {
+    problem.feeder.designs = {read_design(document, "", beside, context, canonical)};
+  }
   if (document.is_object() && document.contains("values")) {
     ObjectReader object(document["values"], "/values", issues);
     for (const std::string& name : context.names) {

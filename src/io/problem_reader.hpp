@@ -15,6 +15,9 @@ struct ReadContext {
 };
 
 feeder::PartSpec read_part(const nlohmann::ordered_json& value, ReadContext& context);
+// Outline, holes and centre of mass of a part that lists no aspects, or its drawing; up.height_mm is read before.
+void read_outlines(ObjectReader& object, const nlohmann::ordered_json& part, feeder::AspectSpec& up,
+                   ReadContext& context);
 // features: the array of a design; canonical: the same array in the canonical document.
 feeder::DesignSpec read_features(const nlohmann::ordered_json& features, const std::string& pointer,
                                  ReadContext& context, nlohmann::ordered_json& canonical);

@@ -170,6 +170,19 @@ void read_drawn_part(const std::string& file, feeder::AspectSpec& up, ReadContex
 
 }  // namespace
 
+void read_outlines(ObjectReader& object, const Json& part, feeder::AspectSpec& up, ReadContext& context) {
+  bool outline_required = part.is_object() && !part.contains("layers");
+  if (const auto file = object.string("file")) {
+    outline_required = false;
+    if (part.contains("outline_mm")) {
+      context.issues.add("/part/file", "both file and outline_mm", "one of them");
+    } else {
+      read_drawn_part(*file, up, context);
+    }
+  }
+  read_shape(object, up, outline_required, context);
+}
+
 feeder::PartSpec read_part(const Json& value, ReadContext& context) {
   feeder::PartSpec part;
   ObjectReader object(value, "/part", context.issues);
@@ -181,16 +194,7 @@ feeder::PartSpec read_part(const Json& value, ReadContext& context) {
   feeder::AspectSpec up;
   up.name = "up";
   up.height_mm = object.required_number("thickness_mm", kPositive, "the part's thickness");
-  bool outline_required = value.is_object() && !value.contains("layers");
-  if (const auto file = object.string("file")) {
-    outline_required = false;
-    if (value.contains("outline_mm")) {
-      context.issues.add("/part/file", "both file and outline_mm", "one of them");
-    } else {
-      read_drawn_part(*file, up, context);
-    }
-  }
-  read_shape(object, up, outline_required, context);
+  read_outlines(object, value, up, context);
   const bool flips = object.boolean_or("flips", false);
   object.finish();
   up.probability = flips ? 0.5 : 1;

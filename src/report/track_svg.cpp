@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "report/svg_canvas.hpp"
+#include "report/svg_corners.hpp"
 #include "report/svg_sheet.hpp"
 #include "report/track_drawing.hpp"
 #include "report/track_outline.hpp"
@@ -326,7 +327,7 @@ class Sheet {
     }
     void row(const Point& at, const Point& outward, const std::string& remark) {
       const std::string label = std::to_string(feature + 1) + "." + std::to_string(++count);
-      sheet.number_at(label, at, outward);
+      number_corner(sheet.canvas_, label, sheet.on_paper(at), outward);
       table.rows.push_back({label, length_text(at.x()), length_text(at.y()), remark});
     }
     void disc(const Disc& disc) { row(disc.centre, {0, 0}, "centre of \u00d8" + length_text(2 * disc.radius_mm)); }
@@ -342,7 +343,8 @@ class Sheet {
       const std::vector<Corner> found = corners_of(loop);
       if (count + found.size() > kMostNumbered) return summary(loop);
       for (std::size_t k = 0; k < found.size(); ++k) {
-        row(found[k].at, outwards(found, k), found[k].radius_mm > 0 ? "R" + length_text(found[k].radius_mm) : "");
+        row(found[k].at, outwards_on_paper(found, k),
+            found[k].radius_mm > 0 ? "R" + length_text(found[k].radius_mm) : "");
       }
     }
     void face(const Loop& points) {
@@ -372,37 +374,6 @@ class Sheet {
       }
       tables_.push_back(std::move(table.table));
     }
-  }
-
-  // Away from the void or the obstacle at a corner, on paper.
-  static Point outwards(const std::vector<Corner>& corners, std::size_t k) {
-    const std::size_t n = corners.size();
-    const Point in = (corners[k].at - corners[(k + n - 1) % n].at).normalized();
-    const Point out = (corners[(k + 1) % n].at - corners[k].at).normalized();
-    const Point normal = Point(in.y() + out.y(), -in.x() - out.x());  // to the right of a counter-clockwise loop
-    return normal.norm() > 1e-9 ? Point(normal.x(), -normal.y()).normalized() : Point(in.x(), -in.y());
-  }
-
-  void number_at(const std::string& label, const Point& at, const Point& outward) {
-    constexpr double kSize = 2.5;
-    const Point p = on_paper(at);
-    const double w = text_width(label, kSize) + 0.6, h = kSize + 0.4, base = std::atan2(outward.y(), outward.x());
-    Point place = p + Point(2, -2);
-    bool found = false;
-    for (const double away : {2.6, 4.0, 6.0, 9.0, 12.0}) {
-      for (const double turn : {0.0, 0.6, -0.6, 1.2, -1.2, 2.0, -2.0, 3.14}) {
-        if (found) break;
-        const Point u(std::cos(base + turn), std::sin(base + turn));
-        const Point candidate = p + Point(u.x() * (away + w / 2 - 1), u.y() * (away + h / 2 - 1));
-        if (!canvas_.is_free(box_around(candidate, w, h))) continue;
-        place = candidate;
-        found = true;
-      }
-    }
-    canvas_.take(box_around(place, w, h));
-    if ((place - p).norm() > 6) canvas_.line(p, place, "leader");
-    canvas_.circle(p, 0.55, "mark");
-    canvas_.text({place.x(), place.y() + 0.36 * kSize}, label, {kSize, Anchor::Middle, false, false, true});
   }
 
   // The x of starts and ends from the datum, below the wall; numbers that would overlap are moved apart.
