@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numbers>
-#include <set>
 
 #include "applications/feeder/travel_picture.hpp"
 #include "io/feeder_json.hpp"
-#include "report/knee.hpp"
+#include "report/run_data.hpp"
 #include "report/turning_data.hpp"
 
 namespace formotion {
@@ -21,8 +19,6 @@ using namespace feeder;
 constexpr std::size_t kMostTravelNumbers = 400000;
 // Designs in one page with their configuration space, some 100 kB each; the page says so of the others.
 constexpr int kMostSpaces = 6;
-// Topologies of a problem that are all listed; of more only those of the designs shown.
-constexpr std::size_t kMostTopologiesListed = 100;
 
 Json mm(double value) { return std::isfinite(value) ? Json(std::round(value * 1e4) / 1e4 + 0.0) : Json(nullptr); }
 Json mm(const std::optional<double>& value) { return value ? mm(*value) : Json(nullptr); }
@@ -43,18 +39,6 @@ Json polygons(const std::vector<Polygon>& areas) {
   Json json = Json::array();
   for (const Polygon& area : areas) json.push_back(polygon(area));
   return json;
-}
-
-// Shares and scores.
-Json fine(double value) { return std::isfinite(value) ? Json(std::round(value * 1e6) / 1e6 + 0.0) : Json(nullptr); }
-
-// Every measured number; what must be exact (values, features) is put in afterwards.
-void round_all(Json& json) {
-  if (json.is_number_float()) {
-    json = fine(json.get<double>());
-  } else if (json.is_structured()) {
-    for (auto& item : json) round_all(item);
-  }
 }
 
 Json goal_json(const Goal& goal) {
@@ -81,23 +65,7 @@ Json uncertainty_json(const Uncertainty& u) {
   return json;
 }
 
-// All topologies, or of very many those of the designs shown.
-Json topologies_json(const FeederProblem& problem, const std::vector<JudgedDesign>& front) {
-  const std::span<const Topology> all = problem.topologies();
-  std::set<std::size_t> listed;
-  for (const JudgedDesign& judged : front) listed.insert(static_cast<std::size_t>(judged.design.candidate.topology));
-  for (std::size_t i = 0; i < all.size() && all.size() <= kMostTopologiesListed; ++i) listed.insert(i);
-  Json json = Json::array();
-  for (const std::size_t number : listed) {
-    Json names = Json::array();
-    for (const int index : all[number].variables)
-      names.push_back(problem.variables()[static_cast<std::size_t>(index)].name);
-    json.push_back({{"number", number}, {"label", all[number].label}, {"variables", names}});
-  }
-  return json;
-}
-
-Json problem_json(const ProblemFile& file, const FeederProblem& problem, const std::vector<JudgedDesign>& front) {
+Json problem_json(const ProblemFile& file, const FeederProblem& problem, const RunSummary& run) {
   const FeederSpec& spec = problem.spec();
   Json json{{"name", file.name}, {"slug", file.slug}, {"path", file.path}, {"kind", file.kind}};
   json["environment"] = environment_json(spec.environment);
@@ -105,18 +73,7 @@ Json problem_json(const ProblemFile& file, const FeederProblem& problem, const s
   json["manufacture"] = {{"cutter_radius_mm", mm(spec.manufacture.cutter_radius_mm)},
                          {"min_web_mm", mm(spec.manufacture.min_web_mm)}};
   json["uncertainty"] = uncertainty_json(spec.uncertainty);
-  json["objectives"] = Json::array();
-  for (const Objective& o : problem.objectives()) {
-    json["objectives"].push_back({{"name", o.name}, {"maximise", o.maximise}, {"resolution", o.resolution}});
-  }
-  json["variables"] = Json::array();
-  for (const Variable& v : problem.variables()) {
-    json["variables"].push_back(
-        {{"name", v.name}, {"min", v.min}, {"max", v.max}, {"value", v.value ? Json(*v.value) : Json(nullptr)}});
-  }
-  json["topologies"] = topologies_json(problem, front);
-  json["topology_count"] = problem.topologies().size();
-  json["text"] = file.canonical;
+  add_search_space(json, file, problem, run);
   return json;
 }
 
@@ -175,25 +132,6 @@ Json travel_json(const PosePicture& picture, std::size_t& numbers) {
   return json;
 }
 
-// For a POSIX shell.
-std::string quoted(const std::string& word) {
-  const auto plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || (c && std::strchr("/._-+", c));
-  };
-  if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
-// evaluate takes the design's numbers from its file, so that they stay exact whatever the problem's topologies.
-Json commands_json(const ProblemFile& file, const std::string& id) {
-  const std::string program = "build/release/formotion ", run = "results/" + file.slug;
-  return {
-      {"evaluate", program + "evaluate " + quoted(file.path) + " --design " + quoted(run + "/designs/" + id + ".json")},
-      {"export", program + "export " + quoted(run) + " --design " + id + " --format json"}};
-}
-
 Json track_json(const std::vector<PlacedFeature>& features) {
   Json json = Json::array();
   for (const PlacedFeature& feature : features) {
@@ -205,12 +143,6 @@ Json track_json(const std::vector<PlacedFeature>& features) {
                     {"voids", polygons(feature.voids_mm)},
                     {"dimensions", dimensions}});
   }
-  return json;
-}
-
-Json scores_json(const std::vector<double>& scores) {
-  Json json = Json::array();
-  for (const double score : scores) json.push_back(fine(score));
   return json;
 }
 
@@ -235,15 +167,7 @@ class DesignWriter {
     const std::vector<PosePicture> pictures = travel_pictures(problem_, topology, values);
     Json evaluation = evaluation_json(problem_, topology, values, judged.evaluation);
     round_all(evaluation);
-    Json json{{"id", design_id(design)}, {"number", design.number}, {"topology", topology}};
-    json["label"] = problem_.topologies()[static_cast<std::size_t>(topology)].label;
-    json["provenance"] = design.provenance;
-    json["objectives"] = scores_json(design.score.objectives);
-    json["violation"] = fine(design.score.violation);
-    const bool uncertain = !design.score.worst_case.empty() && design.score.worst_case != design.score.objectives;
-    json["worst"] = uncertain ? scores_json(design.score.worst_case) : Json(nullptr);
-    const auto stamp = stamps_.find(design_id(design));
-    json["stamp"] = stamp == stamps_.end() ? Json(nullptr) : Json::parse(stamp->second);
+    Json json = design_head(problem_, design, stamps_);
     json["uncertainty"] = evaluation.contains("uncertainty") ? evaluation["uncertainty"] : Json(nullptr);
     for (const char* key : {"feasible", "metrics", "worst_case", "violations", "warnings", "goal_pose", "poses"}) {
       json[key] = evaluation[key];
@@ -284,39 +208,13 @@ class DesignWriter {
   int spaces_ = 0;
 };
 
-Json knee_json(const FeederProblem& problem, const RunSummary& run) {
-  if (run.feasible == 0) return nullptr;
-  std::vector<std::vector<double>> losses;
-  for (const Evaluated& design : run.front) {
-    losses.emplace_back();
-    for (std::size_t k = 0; k < design.score.objectives.size(); ++k) {
-      losses.back().push_back(problem.objectives()[k].loss(design.score.objectives[k]));
-    }
-  }
-  const std::optional<Knee> found = knee(losses);
-  if (!found) return nullptr;
-  return {{"id", design_id(run.front[found->index])},
-          {"distance", fine(found->distance)},
-          {"how",
-           "farthest, towards the better side, from the plane through the best designs of every objective; "
-           "objectives scaled to 0..1 over the front"}};
-}
-
 }  // namespace
 
 Json report_data(const ProblemFile& file, const FeederProblem& problem, const RunSummary& run,
                  const std::vector<JudgedDesign>& front, const ComparedRun* other) {
   Json json{{"formotion", 1}, {"program", "formotion " + run.program_version}};
-  json["problem"] = problem_json(file, problem, front);
-  json["run"] = {{"evaluations", run.evaluations}, {"stages", run.stages}, {"budget", run.budget},
-                 {"feasible", run.feasible},       {"seed", run.seed},     {"complete", run.complete},
-                 {"failures", run.failures}};
-  const CourseBox box = course_box(run, other);
-  json["history"] = course_json(run, box);
-  json["compared"] = compared_json(other, box);
-  json["findings"] = Json::array();
-  for (const Finding& f : run.findings)
-    json["findings"].push_back({{"topic", f.topic}, {"subject", f.subject}, {"text", f.text}});
+  json["problem"] = problem_json(file, problem, run);
+  add_run(json, problem, run, other);
   if (file.feeder.grammar) {
     for (const PrunedSequences& entry : file.feeder.grammar->pruned) {
       json["findings"].push_back({{"topic", "pruned"},
@@ -324,13 +222,6 @@ Json report_data(const ProblemFile& file, const FeederProblem& problem, const Ru
                                   {"text", entry.reason}});
     }
   }
-  json["sample"] = Json::array();  // [number, topology, feasible, violation, [objectives]]
-  for (const Evaluated& e : run.sample) {
-    json["sample"].push_back({e.number, e.candidate.topology, e.score.feasible ? 1 : 0, fine(e.score.violation),
-                              scores_json(e.score.objectives)});
-  }
-  json["knee"] = knee_json(problem, run);
-
   DesignWriter writer(file, problem, run.stamps);
   std::vector<double> start;
   for (const Variable& v : problem.variables()) start.push_back(v.start());

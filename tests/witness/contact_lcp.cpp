@@ -71,15 +71,15 @@ Eigen::Index leaving_row(const Eigen::MatrixXd& tableau, Eigen::Index column, Ei
 
 }  // namespace
 
-std::optional<Twist3> twist_by_lemke(const LcpCase& lcp, const Eigen::VectorXd& cover) {
-  const Matrices lcp_of = matrices(lcp);
-  const Eigen::Index n = lcp_of.q.size();
+std::optional<Eigen::VectorXd> solve_lcp(const Eigen::MatrixXd& m, const Eigen::VectorXd& q,
+                                         const Eigen::VectorXd& cover) {
+  const Eigen::Index n = q.size();
   // Columns: w (0..n-1), z (n..2n-1), z0 (2n), right hand side (2n+1).
   Eigen::MatrixXd tableau = Eigen::MatrixXd::Zero(n, 2 * n + 2);
   tableau.leftCols(n).setIdentity();
-  tableau.middleCols(n, n) = -lcp_of.m;
+  tableau.middleCols(n, n) = -m;
   tableau.col(2 * n) = -cover;
-  tableau.col(2 * n + 1) = lcp_of.q;
+  tableau.col(2 * n + 1) = q;
   std::vector<Eigen::Index> basis(static_cast<std::size_t>(n));
   for (Eigen::Index i = 0; i < n; ++i) basis[static_cast<std::size_t>(i)] = i;
   const auto pivot = [&](Eigen::Index row, Eigen::Index column) {
@@ -91,11 +91,11 @@ std::optional<Twist3> twist_by_lemke(const LcpCase& lcp, const Eigen::VectorXd& 
     basis[static_cast<std::size_t>(row)] = column;
     return left;
   };
-  if (lcp_of.q.minCoeff() < 0) {
+  if (q.minCoeff() < 0) {
     // z0 enters where q / cover is least.
     Eigen::Index row = 0;
     for (Eigen::Index i = 1; i < n; ++i) {
-      if (lcp_of.q(i) / cover(i) < lcp_of.q(row) / cover(row)) row = i;
+      if (q(i) / cover(i) < q(row) / cover(row)) row = i;
     }
     Eigen::Index left = pivot(row, 2 * n);
     for (int steps = 0; left != 2 * n; ++steps) {
@@ -117,7 +117,14 @@ std::optional<Twist3> twist_by_lemke(const LcpCase& lcp, const Eigen::VectorXd& 
     const Eigen::Index variable = basis[static_cast<std::size_t>(i)];
     if (variable >= n && variable < 2 * n) z(variable - n) = tableau(i, 2 * n + 1);
   }
-  return twist_of(lcp, lcp_of, z);
+  return z;
+}
+
+std::optional<Twist3> twist_by_lemke(const LcpCase& lcp, const Eigen::VectorXd& cover) {
+  const Matrices lcp_of = matrices(lcp);
+  const auto z = solve_lcp(lcp_of.m, lcp_of.q, cover);
+  if (!z) return std::nullopt;
+  return twist_of(lcp, lcp_of, *z);
 }
 
 std::vector<Twist3> twists_by_bases(const LcpCase& lcp, double tolerance) {

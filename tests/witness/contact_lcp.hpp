@@ -30,8 +30,12 @@ struct LcpCase {
 
 using Twist3 = Eigen::Vector3d;  // velocity of the centre of mass, angular velocity
 
-// One solution by Lemke's method with the lexicographic rule; cover: positive, one entry a variable (4 a contact),
-// which solution is found depends on it. None if it ends on a ray.
+// A z >= 0 with m z + q >= 0 complementary to it, by Lemke's method with the lexicographic rule; cover: positive, one
+// entry a variable, which solution is found depends on it. None if it ends on a ray.
+std::optional<Eigen::VectorXd> solve_lcp(const Eigen::MatrixXd& m, const Eigen::VectorXd& q,
+                                         const Eigen::VectorXd& cover);
+
+// One solution of the case; cover as in solve_lcp, 4 entries a contact. None if Lemke's method ends on a ray.
 std::optional<Twist3> twist_by_lemke(const LcpCase& lcp, const Eigen::VectorXd& cover);
 
 // The twists of all complementary bases that are feasible: 16 bases for one contact, 4,096 for three.

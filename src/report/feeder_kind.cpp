@@ -1,0 +1,67 @@
+#include "applications/feeder/feeder_problem.hpp"
+#include "io/feeder_json.hpp"
+#include "report/design_files.hpp"
+#include "report/kinds.hpp"
+#include "report/report_data.hpp"
+#include "report/run_files.hpp"
+
+namespace formotion {
+namespace {
+
+class FeederKind final : public Kind {
+ public:
+  explicit FeederKind(ProblemFile file) : file_(std::move(file)), problem_(file_.feeder) {}
+
+  const Problem& problem() const override { return problem_; }
+  std::vector<double> all_values(const Candidate& candidate) const override { return problem_.all_values(candidate); }
+  OrderedJson design_keys(int topology, std::span<const double> values) const override {
+    OrderedJson json;
+    json["features"] = features_json(problem_.literal_design(topology, values));
+    json["values"] = values_json(problem_, topology, values);
+    return json;
+  }
+
+  OrderedJson evaluation(int topology, std::span<const double> values) const override {
+    OrderedJson json = evaluation_json(problem_, topology, values, problem_.evaluate(topology, values));
+    if (const auto limits = feeder::uncertainty_limits(problem_, topology, values))
+      json["uncertainty"] = limits_json(*limits);
+    json["topology"] = topology;
+    json["features"] = features_json(problem_.literal_design(topology, values));
+    return json;
+  }
+  std::string drawing(int topology, std::span<const double> values, const std::string& format) const override {
+    JudgedDesign judged{{}, {values.begin(), values.end()}, problem_.evaluate(topology, values)};
+    judged.design.candidate.topology = topology;
+    return (format == "svg" ? design_svg : design_dxf)(file_.name, problem_, judged);
+  }
+
+  std::string design_file(const Evaluated& design, const std::string& format) const override {
+    const JudgedDesign chosen = judged(problem_, design);
+    if (format == "svg") return design_svg(file_.name, problem_, chosen);
+    if (format == "dxf") return design_dxf(file_.name, problem_, chosen);
+    return design_json(problem_, chosen).dump(1) + "\n";
+  }
+  std::string front_csv(const RunSummary& run) const override {
+    return designs_csv(problem_, judged(problem_, run.front));
+  }
+  OrderedJson report(const RunSummary& run, const ComparedRun* other) const override {
+    return report_data(file_, problem_, run, judged(problem_, run.front), other);
+  }
+  void write_files(const std::string& folder, const RunSummary& run) const override {
+    write_run_files(folder, file_, problem_, run);
+  }
+
+ private:
+  ProblemFile file_;
+  feeder::FeederProblem problem_;
+};
+
+}  // namespace
+
+std::unique_ptr<Kind> feeder_kind(ProblemFile file) { return std::make_unique<FeederKind>(std::move(file)); }
+
+std::unique_ptr<Kind> kind_of(ProblemFile file) {
+  return file.assembly ? assembly_kind(std::move(file)) : feeder_kind(std::move(file));
+}
+
+}  // namespace formotion

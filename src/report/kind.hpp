@@ -1,0 +1,40 @@
+// What commands need of a problem whatever its kind: judged designs as JSON and drawings, a run's files, its report.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/problem_file.hpp"
+#include "optimize/evaluated.hpp"
+#include "optimize/run_summary.hpp"
+#include "problem/problem.hpp"
+#include "report/run_course.hpp"
+
+namespace formotion {
+
+class Kind {
+ public:
+  virtual ~Kind() = default;
+  virtual const Problem& problem() const = 0;
+  // Of all the problem's variables: the candidate's, and the starting values of the others.
+  virtual std::vector<double> all_values(const Candidate& candidate) const = 0;
+  // A design's shapes with literal numbers (`features`, `fixed_mm`) and its `values`: keys of a design file.
+  virtual nlohmann::ordered_json design_keys(int topology, std::span<const double> values) const = 0;
+  // The answer of `evaluate`; as a drawing: format svg or dxf.
+  virtual nlohmann::ordered_json evaluation(int topology, std::span<const double> values) const = 0;
+  virtual std::string drawing(int topology, std::span<const double> values, const std::string& format) const = 0;
+
+  // One design of a run; format: json, svg or dxf.
+  virtual std::string design_file(const Evaluated& design, const std::string& format) const = 0;
+  virtual std::string front_csv(const RunSummary& run) const = 0;
+  virtual nlohmann::ordered_json report(const RunSummary& run, const ComparedRun* other) const = 0;
+  virtual void write_files(const std::string& folder, const RunSummary& run) const = 0;
+};
+
+// file: moved in.
+std::unique_ptr<Kind> kind_of(ProblemFile file);
+
+}  // namespace formotion
