@@ -176,7 +176,7 @@ struct Stepper {
 // Why the part stands still, from the contacts that carry.
 InsertionOutcome stopped_by(const Stepper::Solution& end, double friction, double step_mm) {
   const double cosine = 1 / std::hypot(1, friction);
-  bool sticks = false;
+  bool sticks = false, wedged = false;
   for (std::size_t i = 0; i < end.contacts.size(); ++i) {
     if (end.force[i] <= 1e-7) continue;
     sticks = sticks || std::abs(end.slip[i]) < 1e-5 * step_mm;
@@ -184,13 +184,12 @@ InsertionOutcome stopped_by(const Stepper::Solution& end, double friction, doubl
       if (end.force[j] <= 1e-7) continue;
       const Point between = end.contacts[j].point - end.contacts[i].point;
       const double least = cosine * between.norm();
-      if (between.norm() > 1e-6 && between.dot(end.contacts[i].normal) >= least &&
-          -between.dot(end.contacts[j].normal) >= least) {
-        return InsertionOutcome::Wedged;
-      }
+      wedged = wedged || (between.norm() > 1e-6 && between.dot(end.contacts[i].normal) >= least &&
+                          -between.dot(end.contacts[j].normal) >= least);
     }
   }
-  return sticks ? InsertionOutcome::Jammed : InsertionOutcome::Blocked;
+  if (!sticks) return InsertionOutcome::Blocked;
+  return wedged ? InsertionOutcome::Wedged : InsertionOutcome::Jammed;
 }
 
 double overlap_mm2(const Polygon& part, const std::vector<Polygon>& fixed) {
