@@ -230,11 +230,11 @@ SteppedInsertion step_insertion(const SteppingScene& scene, const Configuration&
   };
   Stepper::Solution last;
   double axial = 0;
-  for (double travel = 0; travel < scene.approach.distance_mm;) {
-    const double before = travel;
-    travel = std::min(travel + options.step_mm, scene.approach.distance_mm);
+  const int steps = static_cast<int>(std::ceil(scene.approach.distance_mm / options.step_mm));
+  const double step = scene.approach.distance_mm / steps;
+  for (int i = 1; i <= steps; ++i) {
     Place carrier = began;
-    carrier.head<2>() += travel * direction;
+    carrier.head<2>() += i * step * direction;
     for (int substep = 0;; ++substep) {
       if (substep == options.most_substeps) return finish(InsertionOutcome::Undecided);
       double viscosity = 0;
@@ -253,11 +253,11 @@ SteppedInsertion step_insertion(const SteppingScene& scene, const Configuration&
     }
     const double axial_before = axial;
     axial = stepper.stiffness.cwiseProduct(carrier - q).head<2>().dot(direction);
-    result.work_nmm += (axial + axial_before) / 2 * (travel - before);
+    result.work_nmm += (axial + axial_before) / 2 * step;
     result.peak_axial_n = std::max(result.peak_axial_n, axial);
     if (scene.approach.max_force_n && axial >= *scene.approach.max_force_n) break;
   }
-  return finish(stopped_by(last, scene.friction, options.step_mm));
+  return finish(stopped_by(last, scene.friction, step));
 }
 
 }  // namespace formotion::witness

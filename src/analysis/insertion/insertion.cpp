@@ -23,6 +23,8 @@ constexpr double kShortest = 1e-10;       // steps, of the leg's length
 constexpr double kReached_mm = 1e-6;      // short of the goal
 constexpr double kSameWay_mm = 1e-9;      // between continuations, in a look-ahead
 constexpr int kMostSnaps = 200;           // legs of one snap
+constexpr double kWork = 1e-6;            // of work, to its share
+constexpr int kHalvings = 12;             // of a step, for its work
 
 constexpr ContactMode kModes[]{ContactMode::SlideLeft, ContactMode::SlideRight, ContactMode::Stick};
 
@@ -442,11 +444,28 @@ class Inserter {
   }
   double lateral(const Eigen::Vector3d& force) const { return aside_.x() * force[0] + aside_.y() * force[1]; }
 
-  // Simpson's rule on a step.
+  // The carrier's work on a step, and the largest forces on it: both may lie between its ends.
   template <class At>
   void add_work(State& state, const CarrierLine& line, double to, const At& at, double from = 0) const {
-    const auto force = [&](double h) { return axial(spring_load(stiffness_, line.at(h), at(h))); };
-    state.result.work_nmm += (to - from) / 6 * (force(from) + 4 * force((from + to) / 2) + force(to));
+    Insertion& result = state.result;
+    const auto force = [&](double h) {
+      const Eigen::Vector3d load = spring_load(stiffness_, line.at(h), at(h));
+      result.peak_axial_n = std::max(result.peak_axial_n, std::abs(axial(load)));
+      result.peak_lateral_n = std::max(result.peak_lateral_n, std::abs(lateral(load)));
+      return axial(load);
+    };
+    result.work_nmm += integral(force, from, to, force(from), force((from + to) / 2), force(to), kHalvings);
+  }
+
+  // Simpson's rule on halves until they agree with the whole.
+  template <class F>
+  static double integral(const F& f, double a, double b, double fa, double fm, double fb, int halvings) {
+    const double m = (a + b) / 2, left = f((a + m) / 2), right = f((m + b) / 2);
+    const double whole = (b - a) / 6 * (fa + 4 * fm + fb);
+    const double halves = (b - a) / 12 * (fa + 4 * left + 2 * fm + 4 * right + fb);
+    const double size = (b - a) * (std::abs(fa) + std::abs(fm) + std::abs(fb));
+    if (halvings == 0 || std::abs(halves - whole) <= kWork * size) return halves;
+    return integral(f, a, m, fa, left, fm, halvings - 1) + integral(f, m, b, fm, right, fb, halvings - 1);
   }
 
   Ride slide(State& state, const CompliantLeg& leg, double length, bool is_real) const {
