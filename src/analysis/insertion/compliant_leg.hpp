@@ -35,7 +35,6 @@ class CompliantLeg final : public GuidedPath {
 
   const std::vector<ContactPair>& pairs() const override { return pairs_; }
   const std::vector<ContactMode>& modes() const { return modes_; }
-  const CarrierLine& line() const { return line_; }
   Configuration at(double h) const override;
   Twist rate(double h, const Configuration& q) const override;
   std::vector<ContactForce> forces(double h) const;

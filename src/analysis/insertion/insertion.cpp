@@ -3,30 +3,21 @@
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <limits>
 
 #include "analysis/contact/clearance.hpp"
-#include "analysis/insertion/compliant_leg.hpp"
+#include "analysis/insertion/ways_on.hpp"
 #include "analysis/motion/first_touch.hpp"
 
 namespace formotion {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kReserve = 2e-9;         // modes hold until their reserve is below minus this
-constexpr double kLookAhead_mm = 2e-5;    // of the carrier
-constexpr double kNudge_mm = 1e-5;        // the carrier's way in a snap
-constexpr double kContinuous_mm = 5e-3;   // the part's way in a look-ahead: more is a snap
-constexpr double kOverlap_mm = 1e-9;      // of contacts that do not carry, in a look-ahead
-constexpr double kLongestChord_mm = 0.3;  // steps that bend more are shortened
-constexpr double kShortest = 1e-10;       // steps, of the leg's length
-constexpr double kReached_mm = 1e-6;      // short of the goal
-constexpr double kSameWay_mm = 1e-9;      // between continuations, in a look-ahead
-constexpr int kMostSnaps = 200;           // legs of one snap
-constexpr double kWork = 1e-6;            // of work, to its share
-constexpr int kHalvings = 12;             // of a step, for its work
-
-constexpr ContactMode kModes[]{ContactMode::SlideLeft, ContactMode::SlideRight, ContactMode::Stick};
+constexpr double kLookAhead_mm = 2e-5;  // of the carrier
+constexpr double kNudge_mm = 1e-5;      // the carrier's way in a snap
+constexpr double kShortest = 1e-10;     // steps, of the leg's length
+constexpr double kReached_mm = 1e-6;    // short of the goal
+constexpr int kMostSnaps = 200;         // legs of one snap
+constexpr double kWork = 1e-6;          // of work, to its share
+constexpr int kHalvings = 12;           // of a step, for its work
 
 template <class F>
 double falling_root(const F& f, double a, double b, double fa, double fb) {
@@ -36,11 +27,56 @@ double falling_root(const F& f, double a, double b, double fa, double fb) {
   return boost::math::tools::toms748_solve(f, a, b, fa, fb, close, most).second;
 }
 
-// A way on: a leg on which the part moves, or rest among all that touches.
-struct Continuation {
-  std::optional<CompliantLeg> leg;
-  Configuration ahead;
-  double reserve = 0;
+// Simpson's rule on halves until they agree with the whole. fa, fm, fb: at the ends and in the middle.
+template <class F>
+double integral(const F& f, double a, double b, double fa, double fm, double fb, int halvings) {
+  const double m = (a + b) / 2, left = f((a + m) / 2), right = f((m + b) / 2);
+  const double whole = (b - a) / 6 * (fa + 4 * fm + fb);
+  const double halves = (b - a) / 12 * (fa + 4 * left + 2 * fm + 4 * right + fb);
+  const double size = (b - a) * (std::abs(fa) + std::abs(fm) + std::abs(fb));
+  if (halvings == 0 || std::abs(halves - whole) <= kWork * size) return halves;
+  return integral(f, a, m, fa, left, fm, halvings - 1) + integral(f, m, b, fm, right, fb, halvings - 1);
+}
+
+// FNV-1a
+void mix(std::uint64_t& history, std::uint64_t word) { history = (history ^ word) * 1099511628211ull; }
+
+// A leg seen from one of its places on.
+struct ShiftedLeg final : GuidedPath {
+  const CompliantLeg& leg;
+  double by;
+  ShiftedLeg(const CompliantLeg& of, double from) : leg(of), by(from) {}
+  const std::vector<ContactPair>& pairs() const override { return leg.pairs(); }
+  Configuration at(double h) const override { return leg.at(by + h); }
+  Twist rate(double h, const Configuration& q) const override { return leg.rate(by + h, q); }
+};
+
+// Ends a step earlier.
+void cut(const ShiftedLeg& path, FlowStep& step, double h, double reach_mm) {
+  if (h == step.h) return;
+  if (h > 0) {
+    step_to(path, step, h, path.at(h), reach_mm);
+    return;
+  }
+  step.h = 0;
+  step.end = step.start;
+  step.rate_end = step.rate;
+}
+
+// Where the carrier goes, and on what spring: the real way, or a ride while the part snaps.
+struct Stretch {
+  Eigen::Vector3d stiffness;
+  CarrierLine line;
+  double length = 0;  // of the line
+  bool is_real = true;
+};
+
+enum class Ride { Arrived, Ended, Broken };  // Ended: the outcome is there
+
+// How far a stretch was followed.
+struct Went {
+  Ride end = Ride::Arrived;
+  double h = 0;
 };
 
 // Everything of one start's way so far.
@@ -59,15 +95,8 @@ class Inserter {
         space_(*task.space),
         options_(options),
         stiffness_(task.stiffness.kx_n_per_mm, task.stiffness.ky_n_per_mm, task.stiffness.ktheta_nmm_per_rad),
+        ways_(space_, stiffness_, task.friction),
         aside_(turned_left(task.approach.direction)) {}
-  // The same with another spring: of a ride.
-  Inserter(const InsertionTask& task, const InsertionOptions& options, const Eigen::Vector3d& stiffness,
-           const Eigen::Vector3d& start)
-      : Inserter(task, options) {
-    stiffness_ = stiffness;
-    start_ = start;
-  }
-
   Insertion run(const Configuration& start) {
     State state;
     state.q = start;
@@ -77,14 +106,12 @@ class Inserter {
       finish(state, InsertionOutcome::Blocked);
       return state.result;
     }
-    note(state, start_, "start", {});
+    note(state, spring_load(stiffness_, start_, start), "start", {});
     follow(state, options_.max_branching);
     return state.result;
   }
 
  private:
-  enum class Ride { Arrived, Ended, Broken };
-
   Eigen::Vector3d carrier(double travel) const {
     const Point& d = task_.approach.direction;
     return start_ + travel * Eigen::Vector3d(d.x(), d.y(), 0);
@@ -109,31 +136,33 @@ class Inserter {
       if (reached(state.q) >= 0) return finish(state, InsertionOutcome::Assembled);
       const double left = task_.approach.distance_mm - state.travel_mm;
       if (left <= 0) return stop(state, "the carrier's travel ends");
-      const CarrierLine line{carrier(state.travel_mm), way};
+      if (state.result.solves > options_.most_solves) {
+        state.result.why = "it takes more than " + std::to_string(options_.most_solves) + " solutions";
+        return finish(state, InsertionOutcome::Undecided);
+      }
+      const Stretch stretch{stiffness_, {carrier(state.travel_mm), way}, left, true};
       const double ahead = std::min(kLookAhead_mm, left / 2);
-      std::vector<Continuation> ways = continuations(state, line, ahead);
+      std::vector<Continuation> ways = ways_.continuous(state.q, stretch.line, ahead, state.result.solves);
       if (ways.empty()) {
         if (!snap(state, branching)) return;
         continue;
       }
       if (ways.size() > 1) {
-        branch(state, ways, line, left, branching);
+        branch(state, ways, stretch, branching);
         return;
       }
-      if (take(state, ways.front(), line, left, true) == Ride::Ended) return;
+      if (take(state, ways.front(), stretch).end == Ride::Ended) return;
     }
     state.result.why = "it makes more than " + std::to_string(options_.max_legs) + " legs";
     finish(state, InsertionOutcome::Undecided);
   }
 
-  // Goes one way to its end. Ended: the outcome is there.
-  Ride take(State& state, Continuation& way, const CarrierLine& line, double length, bool is_real) const {
-    if (!way.leg) return rest(state, line, length, is_real);
-    return slide(state, *way.leg, length, is_real);
+  // Goes one way to its end.
+  Went take(State& state, Continuation& way, const Stretch& stretch) const {
+    return way.leg ? slide(state, *way.leg, stretch) : rest(state, stretch);
   }
 
-  void branch(State& state, std::vector<Continuation>& ways, const CarrierLine& line, double length,
-              int branching) const {
+  void branch(State& state, std::vector<Continuation>& ways, const Stretch& stretch, int branching) const {
     if (branching <= 0) {
       state.result.why = "several motions are consistent with friction, again and again";
       return finish(state, InsertionOutcome::Ambiguous);
@@ -141,7 +170,7 @@ class Inserter {
     std::vector<State> ends;
     for (Continuation& way : ways) {
       State other = state;
-      if (take(other, way, line, length, true) == Ride::Arrived) follow(other, branching - 1);
+      if (take(other, way, stretch).end == Ride::Arrived) follow(other, branching - 1);
       ends.push_back(std::move(other));
     }
     join(state, ends);
@@ -190,10 +219,10 @@ class Inserter {
     state.travel_mm += nudge;
     const Eigen::Vector3d home = carrier(state.travel_mm);
     double stiffer = 1;
-    for (int legs = 0; legs < kMostSnaps; ++legs) {
-      const std::vector<Eigen::Vector3d> motions = first_motions(state.q, spring_load(stiffness_, home, state.q));
+    for (int legs = 0; legs < kMostSnaps && state.result.solves <= options_.most_solves; ++legs) {
+      const std::vector<Eigen::Vector3d> motions = ways_.first_motions(state.q, home);
       if (motions.empty()) {
-        if (legs > 0 || held(touches_at(space_, state.q), state.q, home)) return true;
+        if (legs > 0 || ways_.held(state.q, home)) return true;
         state.result.why = "no motion is consistent with its contacts";
         finish(state, InsertionOutcome::Undecided);
         return false;
@@ -237,182 +266,46 @@ class Inserter {
   Ride ride(State& state, const Eigen::Vector3d& home, const Eigen::Vector3d& motion, double stiffer) const {
     const Eigen::Vector3d q = vector_of(state.q);
     const CarrierLine line{q + (home - q - motion) / stiffer, motion / stiffer};
-    const Inserter with{task_, options_, stiffness_ * stiffer, start_};
+    const Eigen::Vector3d stiffness = stiffness_ * stiffer;
+    const WaysOn ways_of_ride(space_, stiffness, task_.friction);
     const double size =
         std::max({std::abs(motion[0]), std::abs(motion[1]), std::abs(motion[2]) * space_.part.reach_mm}) / stiffer;
     double done = 0;
-    for (int legs = 0; legs < kMostSnaps; ++legs) {
-      const CarrierLine rest_of{line.at(done), line.way};
+    for (int legs = 0; legs < kMostSnaps && state.result.solves <= options_.most_solves; ++legs) {
+      const Stretch stretch{stiffness, {line.at(done), line.way}, 1 - done, false};
       const double ahead = std::min(kLookAhead_mm / size, (1 - done) / 2);
-      std::vector<Continuation> ways = with.continuations(state, rest_of, ahead);
+      std::vector<Continuation> ways = ways_of_ride.continuous(state.q, stretch.line, ahead, state.result.solves);
       if (ways.empty()) return Ride::Broken;
       // Among several the one with the most in reserve: the snap's own first motion chose its branch.
-      if (with.take(state, ways.front(), rest_of, 1 - done, false) == Ride::Ended) return Ride::Ended;
-      done += with.ride_done_;
+      const Went went = take(state, ways.front(), stretch);
+      if (went.end == Ride::Ended) return Ride::Ended;
+      done += went.h;
       if (1 - done < 1e-9) return Ride::Arrived;
     }
     return Ride::Broken;
   }
 
-  std::vector<Eigen::Vector3d> first_motions(const Configuration& q, const Eigen::Vector3d& pull) const {
-    MotionLaw law;
-    law.load = pull;
-    law.mobility = stiffness_.cwiseInverse().asDiagonal();
-    law.friction = task_.friction;
-    law.length_mm = space_.part.gyration_mm;
-    std::vector<Eigen::Vector3d> found;
-    for_alternatives(touches_at(space_, q), [&](const std::vector<ContactPoint>& points, const auto&) {
-      for (const Motion& motion : consistent_motions(points, law)) {
-        if (motion.at_rest()) continue;
-        const Eigen::Vector3d v(motion.twist.linear.x(), motion.twist.linear.y(), motion.twist.angular);
-        if (scaled_size(v) < 1e-9) continue;
-        if (std::none_of(found.begin(), found.end(),
-                         [&](const auto& known) { return scaled_size(known - v) < 1e-6 * scaled_size(v); }))
-          found.push_back(v);
-      }
-    });
-    return found;
-  }
-
-  double scaled_size(const Eigen::Vector3d& v) const { return std::hypot(v[0], v[1], v[2] * space_.part.gyration_mm); }
-
-  // Visits every choice of one touch a cluster.
-  template <class Visit>
-  void for_alternatives(const std::vector<TouchCluster>& clusters, const Visit& visit) const {
-    std::vector<std::size_t> chosen(clusters.size(), 0);
-    for (;;) {
-      std::vector<ContactPoint> points;
-      std::vector<ContactPair> pairs;
-      for (std::size_t i = 0; i < clusters.size(); ++i) {
-        points.push_back(point_of(clusters[i][chosen[i]].state));
-        pairs.push_back(clusters[i][chosen[i]].pair);
-      }
-      if (points.size() <= 6) visit(points, pairs);
-      std::size_t i = 0;
-      while (i < chosen.size() && ++chosen[i] == clusters[i].size()) chosen[i++] = 0;
-      if (i == chosen.size()) return;
-    }
-  }
-
-  // All ways on that are continuous, those with the most in reserve first; ways that lead alike are one.
-  std::vector<Continuation> continuations(State& state, const CarrierLine& line, double ahead) const {
-    const std::vector<TouchCluster> clusters = touches_at(space_, state.q);
-    std::vector<Continuation> found;
-    std::vector<int> chosen(clusters.size(), -1);  // -1: the cluster carries nothing
-    for (;;) {
-      try_choice(state, clusters, chosen, line, ahead, found);
-      std::size_t i = 0;
-      while (i < chosen.size() && ++chosen[i] == static_cast<int>(clusters[i].size())) chosen[i++] = -1;
-      if (i == chosen.size()) break;
-    }
-    std::stable_sort(found.begin(), found.end(),
-                     [](const Continuation& a, const Continuation& b) { return a.reserve > b.reserve; });
-    std::vector<Continuation> ways;
-    for (Continuation& way : found) {
-      if (std::none_of(ways.begin(), ways.end(), [&](const Continuation& known) {
-            return chord(known.ahead, way.ahead, space_.part.reach_mm) <= kSameWay_mm;
-          }))
-        ways.push_back(std::move(way));
-    }
-    if (clusters.size() > 1 && held(clusters, state.q, line.at(ahead))) {
-      const bool known = std::any_of(ways.begin(), ways.end(), [&](const Continuation& way) {
-        return chord(way.ahead, state.q, space_.part.reach_mm) <= kSameWay_mm;
-      });
-      if (!known) ways.push_back({std::nullopt, state.q, 0});
-    }
-    return ways;
-  }
-
-  void try_choice(State& state, const std::vector<TouchCluster>& clusters, const std::vector<int>& chosen,
-                  const CarrierLine& line, double ahead, std::vector<Continuation>& found) const {
-    std::vector<ContactPair> pairs;
-    for (std::size_t i = 0; i < chosen.size(); ++i) {
-      if (chosen[i] >= 0) pairs.push_back(clusters[i][chosen[i]].pair);
-    }
-    if (pairs.size() > 2) return;  // more leave no freedom
-    const int mode_count = task_.friction > 0 ? 3 : 1;
-    std::vector<int> digits(pairs.size(), 0);
-    for (;;) {
-      std::vector<ContactMode> modes;
-      for (const int digit : digits) modes.push_back(kModes[digit]);
-      const auto sticking = std::count(modes.begin(), modes.end(), ContactMode::Stick);
-      if (static_cast<long>(pairs.size()) + sticking <= 2) {
-        CompliantLeg leg(space_, stiffness_, task_.friction, line, pairs, modes, state.q);
-        const Configuration next = leg.at(ahead);
-        const bool continuous = std::isfinite(next.x_mm) && chord(next, state.q, space_.part.reach_mm) < kContinuous_mm;
-        if (continuous) {
-          const double reserve = leg.reserve(ahead);
-          if (reserve >= -kReserve && stays_free(clusters, chosen, next)) {
-            leg.restart(ahead);
-            found.push_back({std::move(leg), next, reserve});
-          }
-        }
-        state.result.solves += leg.solves();
-      }
-      std::size_t i = 0;
-      while (i < digits.size() && ++digits[i] == mode_count) digits[i++] = 0;
-      if (i == digits.size()) return;
-    }
-  }
-
-  bool stays_free(const std::vector<TouchCluster>& clusters, const std::vector<int>& chosen,
-                  const Configuration& next) const {
-    const double c = std::cos(next.theta_rad), s = std::sin(next.theta_rad);
-    for (std::size_t i = 0; i < clusters.size(); ++i) {
-      if (chosen[i] >= 0) continue;
-      double widest = -kInfinity;
-      for (const Touch& touch : clusters[i]) {
-        const ContactState then = contact_state(space_.part, space_.obstacles, touch.pair, next.position(), c, s);
-        widest = std::max(widest, then.gap_mm - std::min(0.0, touch.state.gap_mm));
-      }
-      if (widest < -kOverlap_mm) return false;
-    }
-    return true;
-  }
-
-  // Forces that hold the part against the spring, on all that touches.
-  std::optional<std::vector<CarriedContact>> held(const std::vector<TouchCluster>& clusters, const Configuration& q,
-                                                  const Eigen::Vector3d& at) const {
-    MotionLaw law;
-    law.load = spring_load(stiffness_, at, q);
-    law.friction = task_.friction;
-    law.length_mm = space_.part.gyration_mm;
-    std::optional<std::vector<CarriedContact>> found;
-    for_alternatives(clusters, [&](const std::vector<ContactPoint>& points, const std::vector<ContactPair>& pairs) {
-      if (found) return;
-      const auto forces = equilibrium(points, law);
-      if (!forces) return;
-      found.emplace();
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        if ((*forces)[i].normal > 0) {
-          found->push_back(
-              {pairs[i], q.position() + points[i].lever, points[i].normal, ContactMode::Stick, (*forces)[i]});
-        }
-      }
-    });
-    return found;
-  }
-
   // The part stands while the carrier goes on, as long as forces can hold it: they do for an interval of the carrier's
   // places, since cones are convex.
-  Ride rest(State& state, const CarrierLine& line, double length, bool is_real) const {
-    const std::vector<TouchCluster> clusters = touches_at(space_, state.q);
+  Went rest(State& state, const Stretch& stretch) const {
+    const auto& [stiffness, line, length, is_real] = stretch;
+    const WaysOn ways(space_, stiffness, task_.friction);
     double far = length;
     bool by_force = false;
     if (is_real && task_.approach.max_force_n) {
       const double until = (*task_.approach.max_force_n - axial(spring_load(stiffness_, line.from, state.q))) /
-                           axial(stiffness_.cwiseProduct(line.way));
+                           axial(stiffness.cwiseProduct(line.way));
       if (until < far) {
         far = std::max(0.0, until);
         by_force = true;
       }
     }
-    auto carried = held(clusters, state.q, line.at(far));
+    auto carried = ways.held(state.q, line.at(far));
     if (!carried) {
       double low = 0, high = far;
       for (int i = 0; i < 60 && high - low > 1e-12 * far; ++i) {
         const double middle = (low + high) / 2;
-        if (auto found = held(clusters, state.q, line.at(middle))) {
+        if (auto found = ways.held(state.q, line.at(middle))) {
           low = middle;
           carried = std::move(found);
         } else {
@@ -425,18 +318,16 @@ class Inserter {
     mix(state.result.history, 77);
     const std::vector<CarriedContact> contacts = carried ? *carried : state.contacts;
     if (is_real) {
-      add_work(state, line, far, [&](double) { return state.q; });
+      add_work(state, line, 0, far, [&](double) { return state.q; });
       state.travel_mm += far;
-    } else {
-      ride_done_ = far;
     }
     state.is_stopped = true;
-    note(state, line.at(far), is_real ? "rests" : "rests while it snaps", contacts);
+    note(state, spring_load(stiffness, line.at(far), state.q), is_real ? "rests" : "rests while it snaps", contacts);
     if (by_force) {
       stop(state, "the force's limit is reached");
-      return Ride::Ended;
+      return {Ride::Ended, far};
     }
-    return Ride::Arrived;
+    return {Ride::Arrived, far};
   }
 
   double axial(const Eigen::Vector3d& force) const {
@@ -446,7 +337,7 @@ class Inserter {
 
   // The carrier's work on a step, and the largest forces on it: both may lie between its ends.
   template <class At>
-  void add_work(State& state, const CarrierLine& line, double to, const At& at, double from = 0) const {
+  void add_work(State& state, const CarrierLine& line, double from, double to, const At& at) const {
     Insertion& result = state.result;
     const auto force = [&](double h) {
       const Eigen::Vector3d load = spring_load(stiffness_, line.at(h), at(h));
@@ -457,18 +348,9 @@ class Inserter {
     result.work_nmm += integral(force, from, to, force(from), force((from + to) / 2), force(to), kHalvings);
   }
 
-  // Simpson's rule on halves until they agree with the whole.
-  template <class F>
-  static double integral(const F& f, double a, double b, double fa, double fm, double fb, int halvings) {
-    const double m = (a + b) / 2, left = f((a + m) / 2), right = f((m + b) / 2);
-    const double whole = (b - a) / 6 * (fa + 4 * fm + fb);
-    const double halves = (b - a) / 12 * (fa + 4 * left + 2 * fm + 4 * right + fb);
-    const double size = (b - a) * (std::abs(fa) + std::abs(fm) + std::abs(fb));
-    if (halvings == 0 || std::abs(halves - whole) <= kWork * size) return halves;
-    return integral(f, a, m, fa, left, fm, halvings - 1) + integral(f, m, b, fm, right, fb, halvings - 1);
-  }
-
-  Ride slide(State& state, const CompliantLeg& leg, double length, bool is_real) const {
+  Went slide(State& state, const CompliantLeg& leg, const Stretch& stretch) const {
+    const auto& [stiffness, line, length, is_real] = stretch;
+    const double reach = space_.part.reach_mm;
     state.is_stopped = false;
     mix(state.result.history, is_real ? 1 : 2);
     for (std::size_t i = 0; i < leg.pairs().size(); ++i) {
@@ -478,24 +360,25 @@ class Inserter {
                                     static_cast<std::uint64_t>(pair.fixed));
       mix(state.result.history, static_cast<std::uint64_t>(leg.modes()[i]));
     }
-    const CarrierLine& line = leg.line();
-    note(state, line.from, is_real ? "moves" : "snaps", carried_by(leg, 0, state.q));
+    note(state, spring_load(stiffness, line.from, state.q), is_real ? "moves" : "snaps", carried_by(leg, 0, state.q));
     const int before = leg.solves();
     double from = 0, longest = length;
     const char* event = nullptr;
     const auto at = [&](double h) { return leg.at(h); };
     for (int steps = 0; steps < 20000 && from < length && !event; ++steps) {
       double h = std::min(longest, length - from);
+      const ShiftedLeg shifted{leg, from};
       FlowStep step;
-      Shifted shifted{leg, from};
-      while (!step_to(shifted, step, h) && h > kShortest * length) h /= 2;
+      step.start = shifted.at(0);
+      step.rate = shifted.rate(0, step.start);
+      while (!step_to(shifted, step, h, shifted.at(h), reach) && h > kShortest * length) h /= 2;
       if (!(h > kShortest * length)) {
         event = "stalls";
         break;
       }
       longest = 2 * h;
       double end = h;
-      const auto left = [&](double t) { return leg.reserve(from + t) + kReserve; };
+      const auto left = [&](double t) { return leg.reserve(from + t) + kLegReserve; };
       double begun = 0;
       for (const double t : {h / 2, h}) {
         if (const double at_end = left(t); at_end < 0) {
@@ -506,86 +389,46 @@ class Inserter {
         }
         begun = t;
       }
-      cut(shifted, step, end);
+      cut(shifted, step, end, reach);
       if (step.h > 0) {
         const double touch = first_touch(space_, shifted, step);
         if (touch < step.h || (touch == step.h && !event)) {
           event = "touches";
-          cut(shifted, step, touch);
+          cut(shifted, step, touch, reach);
         }
       }
       const auto ends_at = [&](const auto& missing, const char* what) {
         const double now = missing(0.0), then = missing(step.h);
         if (then > 0) return;
         event = what;
-        cut(shifted, step, now <= 0 ? 0.0 : falling_root(missing, 0.0, step.h, now, then));
+        cut(shifted, step, now <= 0 ? 0.0 : falling_root(missing, 0.0, step.h, now, then), reach);
       };
       ends_at([&](double t) { return -reached(leg.at(from + t)); }, kReaches);
       if (is_real && task_.approach.max_force_n) {
         ends_at(
             [&](double t) {
-              return *task_.approach.max_force_n - axial(spring_load(stiffness_, line.at(from + t), leg.at(from + t)));
+              return *task_.approach.max_force_n - axial(spring_load(stiffness, line.at(from + t), leg.at(from + t)));
             },
             kLimit);
       }
-      if (is_real) add_work(state, line, from + step.h, at, from);
+      if (is_real) add_work(state, line, from, from + step.h, at);
       from += step.h;
       state.q = leg.at(from);
       leg.restart(from);
       if (is_real) state.travel_mm += step.h;
-      note(state, line.at(from), event ? event : "", carried_by(leg, from, state.q));
+      note(state, spring_load(stiffness, line.at(from), state.q), event ? event : "", carried_by(leg, from, state.q));
       if (!event && step.h <= 0) event = "stalls";
     }
     state.result.solves += leg.solves() - before;
-    ride_done_ = from;
     if (event == kReaches) {
       finish(state, InsertionOutcome::Assembled);
-      return Ride::Ended;
+      return {Ride::Ended, from};
     }
     if (event == kLimit) {
       stop(state, "the force's limit is reached");
-      return Ride::Ended;
+      return {Ride::Ended, from};
     }
-    return Ride::Arrived;
-  }
-
-  // A leg seen from one of its places on.
-  struct Shifted final : GuidedPath {
-    const CompliantLeg& leg;
-    double by;
-    Shifted(const CompliantLeg& of, double from) : leg(of), by(from) {}
-    const std::vector<ContactPair>& pairs() const override { return leg.pairs(); }
-    Configuration at(double h) const override { return leg.at(by + h); }
-    Twist rate(double h, const Configuration& q) const override { return leg.rate(by + h, q); }
-  };
-
-  bool step_to(const Shifted& path, FlowStep& step, double h) const {
-    step.h = h;
-    step.start = path.at(0);
-    step.rate = path.rate(0, step.start);
-    const Configuration middle = path.at(h / 2);
-    step.end = path.at(h);
-    step.rate_end = path.rate(h, step.end);
-    if (!std::isfinite(step.end.x_mm) || !std::isfinite(middle.x_mm) || !std::isfinite(step.start.x_mm)) return false;
-    const auto cubic = [h](double a, double da, double b, double db) { return (a + b) / 2 + h * (da - db) / 8; };
-    const Configuration guess{
-        cubic(step.start.x_mm, step.rate.linear.x(), step.end.x_mm, step.rate_end.linear.x()),
-        cubic(step.start.y_mm, step.rate.linear.y(), step.end.y_mm, step.rate_end.linear.y()),
-        cubic(step.start.theta_rad, step.rate.angular, step.end.theta_rad, step.rate_end.angular)};
-    step.chord_mm = chord(middle, guess, space_.part.reach_mm);
-    return step.chord_mm <= kLongestChord_mm;
-  }
-
-  // Ends a step earlier.
-  void cut(const Shifted& path, FlowStep& step, double at) const {
-    if (at == step.h) return;
-    if (at > 0) {
-      step_to(path, step, at);
-      return;
-    }
-    step.h = 0;
-    step.end = step.start;
-    step.rate_end = step.rate;
+    return {Ride::Arrived, from};
   }
 
   std::vector<CarriedContact> carried_by(const CompliantLeg& leg, double h, const Configuration& q) const {
@@ -599,10 +442,8 @@ class Inserter {
     return contacts;
   }
 
-  // Takes down an instant: peaks always, the path if it is kept.
-  void note(State& state, const Eigen::Vector3d& held_at, const char* event,
-            std::vector<CarriedContact> contacts) const {
-    const Eigen::Vector3d force = spring_load(stiffness_, held_at, state.q);
+  // Takes down an instant, with the spring's force: peaks always, the path if it is kept.
+  void note(State& state, const Eigen::Vector3d& force, const char* event, std::vector<CarriedContact> contacts) const {
     Insertion& result = state.result;
     result.peak_axial_n = std::max(result.peak_axial_n, std::abs(axial(force)));
     result.peak_lateral_n = std::max(result.peak_lateral_n, std::abs(lateral(force)));
@@ -615,31 +456,12 @@ class Inserter {
     state.contacts = std::move(contacts);
   }
 
-  static void mix(std::uint64_t& history, std::uint64_t word) {
-    history = (history ^ word) * 1099511628211ull;
-  }  // FNV-1a
-
-  bool sees_itself_wedged(const std::vector<CarriedContact>& contacts) const {
-    const double cosine = 1 / std::hypot(1.0, task_.friction);
-    for (std::size_t i = 0; i < contacts.size(); ++i) {
-      for (std::size_t j = i + 1; j < contacts.size(); ++j) {
-        const Point between = contacts[j].point - contacts[i].point;
-        const double apart = between.norm();
-        if (apart < 1e-6) continue;
-        if (contacts[i].normal.dot(between) >= cosine * apart - 1e-12 &&
-            -contacts[j].normal.dot(between) >= cosine * apart - 1e-12)
-          return true;
-      }
-    }
-    return false;
-  }
-
   void stop(State& state, const std::string& why) const {
     const bool sticks = std::any_of(state.contacts.begin(), state.contacts.end(), [&](const CarriedContact& contact) {
       return task_.friction > 0 && contact.mode == ContactMode::Stick && contact.force.normal > 0;
     });
     state.result.why = why;
-    if (sticks && state.is_stopped && sees_itself_wedged(state.contacts)) {
+    if (sticks && state.is_stopped && is_wedged(state.contacts, task_.friction)) {
       state.result.why += " with two contacts inside each other's friction cones";
       return finish(state, InsertionOutcome::Wedged);
     }
@@ -668,8 +490,8 @@ class Inserter {
   const ContactSpace& space_;
   const InsertionOptions& options_;
   Eigen::Vector3d stiffness_, start_ = Eigen::Vector3d::Zero();
+  WaysOn ways_;
   Point aside_;
-  mutable double ride_done_ = 0;  // of the last leg taken: how far it went
 };
 
 }  // namespace

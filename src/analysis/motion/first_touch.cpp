@@ -109,10 +109,6 @@ double crossing(const ContactSpace& space, const GuidedPath& path, std::size_t i
 
 }  // namespace
 
-double chord(const Configuration& a, const Configuration& b, double reach) {
-  return std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm, reach * (a.theta_rad - b.theta_rad));
-}
-
 bool closes(const ContactSpace& space, const GuidedPath& path, std::size_t index, const Configuration& q) {
   Touch touch{space.pairs[index], {}};
   gap_at(space, index, q, touch.state);

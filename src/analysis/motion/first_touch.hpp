@@ -2,22 +2,9 @@
 // is bounded by a cubic and what the cubic misses, and pieces that the bound cannot clear are halved.
 #pragma once
 
-#include "analysis/motion/guided_path.hpp"
+#include "analysis/motion/path_step.hpp"
 
 namespace formotion {
-
-// A stretch of a path from its start; rates are per unit of h.
-struct FlowStep {
-  Configuration start;
-  Twist rate;
-  Configuration end;
-  Twist rate_end;
-  double h = 0;
-  double chord_mm = 0;  // between the path and the cubic through the step's ends and rates, in its middle
-};
-
-// The distance between two configurations: of the centres of mass, and of points at this reach for the turn.
-double chord(const Configuration& a, const Configuration& b, double reach);
 
 bool carries(const GuidedPath& path, const ContactPair& pair);
 

@@ -11,14 +11,13 @@ namespace formotion {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kForever_mm = 9e3;       // translations longer than this meet nothing more
-constexpr double kReserve = 2e-9;         // modes hold until their reserve is below minus this
-constexpr double kLongestChord_mm = 0.3;  // steps that bend more are shortened
-constexpr double kStepError_mm = 1e-9;    // of integration
-constexpr double kSamePath_mm = 1e-9;     // between places where guided translations end
-constexpr double kSameWay = 1e-7;         // between directions of motion, of unit speed
-constexpr double kSlow = 1e-7;            // of the drive: forces that are out of balance by less leave the part at rest
-constexpr double kShortest = 1e-12;       // steps
+constexpr double kForever_mm = 9e3;     // translations longer than this meet nothing more
+constexpr double kReserve = 2e-9;       // modes hold until their reserve is below minus this
+constexpr double kStepError_mm = 1e-9;  // of integration
+constexpr double kSamePath_mm = 1e-9;   // between places where guided translations end
+constexpr double kSameWay = 1e-7;       // between directions of motion, of unit speed
+constexpr double kSlow = 1e-7;          // of the drive: forces that are out of balance by less leave the part at rest
+constexpr double kShortest = 1e-12;     // steps
 
 // The first root of a function with f(a) >= 0 > f(b).
 template <class F>
@@ -378,19 +377,8 @@ class Follower {
   // False where the flow cannot be followed so far.
   bool take(const Flow& flow, FlowStep& step, double h) const {
     double error = 0;
-    step.h = h;
-    step.end = flow.at(h, error);
-    step.rate_end = flow.tangent(step.end);
-    if (!std::isfinite(step.end.x_mm) || !std::isfinite(step.end.y_mm) || !std::isfinite(step.rate_end.angular))
-      return false;
-    const Configuration middle = flow.at(h / 2);
-    const auto cubic = [h](double a, double da, double b, double db) { return (a + b) / 2 + h * (da - db) / 8; };
-    const Configuration guess{
-        cubic(step.start.x_mm, step.rate.linear.x(), step.end.x_mm, step.rate_end.linear.x()),
-        cubic(step.start.y_mm, step.rate.linear.y(), step.end.y_mm, step.rate_end.linear.y()),
-        cubic(step.start.theta_rad, step.rate.angular, step.end.theta_rad, step.rate_end.angular)};
-    step.chord_mm = chord(middle, guess, space_.part.reach_mm);
-    return error <= kStepError_mm && step.chord_mm <= kLongestChord_mm;
+    const Configuration end = flow.at(h, error);
+    return step_to(flow, step, h, end, space_.part.reach_mm) && error <= kStepError_mm;
   }
 
   Leg leg_of(const Flow& flow, const Configuration& q, const std::string& event) const {
