@@ -8,21 +8,14 @@
 
 namespace formotion {
 
-ProblemFile read_feeder_problem(const std::string& path) {
-  ProblemFile file = read_problem_file(path);
-  if (file.kind != "feeder")
-    throw InputError({{path, "/kind", false, "'" + file.kind + "', which validate alone takes so far", "feeder"}});
-  return file;
-}
-
 ChosenDesign chosen_design(const DesignChoice& choice) {
-  ProblemFile file = read_feeder_problem(choice.problem);
+  ProblemFile file = read_problem_file(choice.problem);
   std::vector<std::pair<std::string, double>> given;
   if (!choice.design.empty()) apply_design_file(file, choice.design, given);
 
   std::vector<InputIssue> issues;
   std::vector<std::string> names;
-  for (const Variable& variable : file.feeder.variables) names.push_back(variable.name);
+  for (const Variable& variable : variables_of(file)) names.push_back(variable.name);
   for (const std::string& setting : choice.settings) {
     const std::size_t sign = setting.find('=');
     const std::string name = setting.substr(0, sign);
@@ -40,18 +33,18 @@ ChosenDesign chosen_design(const DesignChoice& choice) {
     }
   }
   const int topology = choice.topology.value_or(0);
-  if (topology >= static_cast<int>(file.feeder.designs.size())) {
-    issues.push_back({"--topology", "", false, std::to_string(topology),
-                      "a number below " + std::to_string(file.feeder.designs.size())});
+  if (topology >= static_cast<int>(topologies_in(file))) {
+    issues.push_back(
+        {"--topology", "", false, std::to_string(topology), "a number below " + std::to_string(topologies_in(file))});
   }
   if (!issues.empty()) throw InputError(issues);
 
-  ChosenDesign chosen{file.name, nullptr, topology, {}};
-  for (const Variable& variable : file.feeder.variables) chosen.values.push_back(variable.start());
+  ChosenDesign chosen{{}, topology, {}};
+  for (const Variable& variable : variables_of(file)) chosen.values.push_back(variable.start());
   for (const auto& [name, value] : given) {
     chosen.values[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())] = value;
   }
-  chosen.problem = std::make_unique<feeder::FeederProblem>(std::move(file.feeder));
+  chosen.file = std::move(file);
   return chosen;
 }
 

@@ -2,26 +2,18 @@
 #include <iostream>
 
 #include "chosen_design.hpp"
-#include "io/feeder_json.hpp"
-#include "report/design_files.hpp"
+#include "report/kind.hpp"
 
 namespace formotion {
 
 int run_evaluate(const DesignChoice& choice, const std::string& format) {
   const ChosenDesign chosen = chosen_design(choice);
-  const feeder::FeederProblem& problem = *chosen.problem;
-  JudgedDesign judged{{}, chosen.values, problem.evaluate(chosen.topology, chosen.values)};
-  judged.design.candidate.topology = chosen.topology;
-  if (format == "svg" || format == "dxf") {
-    std::cout << (format == "svg" ? design_svg : design_dxf)(chosen.name, problem, judged);
-    return kDone;
+  const std::unique_ptr<Kind> kind = kind_of(chosen.file);
+  if (format == "json") {
+    std::cout << kind->evaluation(chosen.topology, chosen.values).dump(2) << "\n";
+  } else {
+    std::cout << kind->drawing(chosen.topology, chosen.values, format);
   }
-  OrderedJson json = evaluation_json(problem, chosen.topology, chosen.values, judged.evaluation);
-  if (const auto limits = feeder::uncertainty_limits(problem, chosen.topology, chosen.values))
-    json["uncertainty"] = limits_json(*limits);
-  json["topology"] = chosen.topology;
-  json["features"] = features_json(problem.literal_design(chosen.topology, chosen.values));
-  std::cout << json.dump(2) << "\n";
   return kDone;
 }
 

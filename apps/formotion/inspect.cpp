@@ -7,8 +7,6 @@
 #include "io/input_error.hpp"
 #include "io/suggestion.hpp"
 #include "loaded_run.hpp"
-#include "report/design_files.hpp"
-#include "report/report_data.hpp"
 #include "report/report_page.hpp"
 #include "report/run_files.hpp"
 
@@ -18,22 +16,22 @@ int run_status(const std::string& folder, const std::string& format) {
   const LoadedRun loaded(folder);
   const RunSummary run = loaded.run();
   const std::string phase = run.complete ? "complete" : loaded.store.locked_by_another() ? "running" : "stopped";
-  OrderedJson json{{"problem", loaded.file.name},
-                   {"phase", phase},
-                   {"evaluations", run.evaluations},
-                   {"budget", run.budget},
-                   {"seed", run.seed},
-                   {"feasible", run.feasible},
-                   {"front", loaded.state.front().members().size()},
-                   {"failures", OrderedJson::object()},
-                   {"best", OrderedJson::object()}};
+  nlohmann::ordered_json json{{"problem", loaded.file.name},
+                              {"phase", phase},
+                              {"evaluations", run.evaluations},
+                              {"budget", run.budget},
+                              {"seed", run.seed},
+                              {"feasible", run.feasible},
+                              {"front", loaded.state.front().members().size()},
+                              {"failures", nlohmann::ordered_json::object()},
+                              {"best", nlohmann::ordered_json::object()}};
   for (const Failure failure : {Failure::Error, Failure::Crash, Failure::TimeOut}) {
     const auto found = run.failures.find(name(failure));
     json["failures"][name(failure)] = found == run.failures.end() ? 0 : found->second;
   }
   if (!run.history.empty()) {
     const std::vector<double>& best = run.history.back().best;
-    for (std::size_t k = 0; k < best.size(); ++k) json["best"][loaded.problem.objectives()[k].name] = best[k];
+    for (std::size_t k = 0; k < best.size(); ++k) json["best"][loaded.problem().objectives()[k].name] = best[k];
   }
   if (format == "json") {
     std::cout << json.dump(2) << "\n";
@@ -55,7 +53,7 @@ ComparedRun compared_with(const LoadedRun& loaded, const std::string& folder) {
   const LoadedRun other(folder);
   const auto names = [](const LoadedRun& of) {
     std::string list;
-    for (const Objective& o : of.problem.objectives()) list += (list.empty() ? "" : ", ") + o.name;
+    for (const Objective& o : of.problem().objectives()) list += (list.empty() ? "" : ", ") + o.name;
     return list;
   };
   if (names(loaded) != names(other)) {
@@ -63,7 +61,7 @@ ComparedRun compared_with(const LoadedRun& loaded, const std::string& folder) {
                        "one with those of the first run, " + names(loaded)}});
   }
   ComparedRun compared{other.file.name + " in " + folder, {}, other.run()};
-  for (const Topology& topology : other.problem.topologies()) compared.labels.push_back(topology.label);
+  for (const Topology& topology : other.problem().topologies()) compared.labels.push_back(topology.label);
   return compared;
 }
 
@@ -74,7 +72,7 @@ int run_report(const std::string& folder, const std::string& format, const std::
   const RunSummary run = loaded.run();
   if (!compare.empty()) {
     const ComparedRun other = compared_with(loaded, compare);
-    const OrderedJson data = report_data(loaded.file, loaded.problem, run, judged(loaded.problem, run.front), &other);
+    const nlohmann::ordered_json data = loaded.kind->report(run, &other);
     if (format == "json") {
       std::cout << data.dump(1) << "\n";
       return kDone;
@@ -85,11 +83,11 @@ int run_report(const std::string& folder, const std::string& format, const std::
     return kDone;
   }
   if (format == "csv") {
-    std::cout << designs_csv(loaded.problem, judged(loaded.problem, run.front));
+    std::cout << loaded.kind->front_csv(run);
   } else if (format == "json") {
-    std::cout << report_data(loaded.file, loaded.problem, run, judged(loaded.problem, run.front)).dump(1) << "\n";
+    std::cout << loaded.kind->report(run, nullptr).dump(1) << "\n";
   } else {
-    write_run_files(folder, loaded.file, loaded.problem, run);
+    loaded.kind->write_files(folder, run);
     std::cout << (std::filesystem::path(folder) / "report.html").string() << "\n";
   }
   return kDone;
@@ -107,14 +105,7 @@ int run_export(const std::string& folder, const std::string& design, const std::
     throw InputError({{folder, "", false, "no design '" + design + "'" + did_you_mean(design, ids),
                        "an id of the front: " + list + (ids.size() > 10 ? ", ..." : "")}});
   }
-  const JudgedDesign chosen = judged(loaded.problem, *found);
-  if (format == "svg") {
-    std::cout << design_svg(loaded.file.name, loaded.problem, chosen);
-  } else if (format == "dxf") {
-    std::cout << design_dxf(loaded.file.name, loaded.problem, chosen);
-  } else {
-    std::cout << design_json(loaded.problem, chosen).dump(1) << "\n";
-  }
+  std::cout << loaded.kind->design_file(*found, format);
   return kDone;
 }
 

@@ -1,9 +1,9 @@
-// A stored run opened for looking at: status, report and export begin with it.
+// A stored run opened for looking at: status, report, export and verify begin with it.
 #pragma once
 
-#include "applications/feeder/feeder_problem.hpp"
 #include "io/problem_file.hpp"
 #include "optimize/search.hpp"
+#include "report/kind.hpp"
 
 namespace formotion {
 
@@ -11,10 +11,11 @@ struct LoadedRun {
   explicit LoadedRun(const std::string& folder)
       : store(RunStore::open_for_reading(folder)),
         file(parse_problem(store.identity().problem_text, store.identity().problem_path)),
-        problem(file.feeder),
-        state(problem) {
+        kind(kind_of(file)),
+        state(problem()) {
     store.load(state);
   }
+  const Problem& problem() const { return kind->problem(); }
   RunSummary run() const {
     RunSummary run = summary(state, store.identity(), store.complete());
     run.stamps = store.stamps();
@@ -23,7 +24,7 @@ struct LoadedRun {
 
   RunStore store;
   ProblemFile file;
-  feeder::FeederProblem problem;
+  std::unique_ptr<Kind> kind;
   RunState state;
 };
 

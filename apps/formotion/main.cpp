@@ -70,7 +70,7 @@ int usage_error(const CLI::ParseError& error) {
 
 int main(int argc, char** argv) {
   CLI::App app{
-      "Formotion designs tracks that let one pose of a part through.\n"
+      "Formotion designs tracks that let one pose of a part through, and joints that go together.\n"
       "Exit codes: 0 done, 2 bad input, 3 no feasible design (or verify found one that fails), 4 stopped by a signal "
       "(resume goes on), 1 a bug.",
       "formotion"};
@@ -143,7 +143,7 @@ int main(int argc, char** argv) {
 
   CLI::App* evaluate = app.add_subcommand("evaluate", "score one design: JSON on stdout");
   add_design_options(*evaluate, choice);
-  evaluate->add_option("--format", evaluate_format, "json, or the track's drawing: svg or dxf")
+  evaluate->add_option("--format", evaluate_format, "json, or the drawing: svg or dxf")
       ->check(CLI::IsMember({"json", "svg", "dxf"}));
   evaluate->callback([&] { command = [&] { return run_evaluate(choice, evaluate_format); }; });
 

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 
-#include "io/feeder_json.hpp"
 #include "problem/staged_problem.hpp"
 #include "report/run_files.hpp"
 
@@ -15,13 +14,13 @@ constexpr std::size_t kMostErrors = 100;  // a bug that every candidate meets ne
 
 class Files {
  public:
-  Files(const std::string& folder, const feeder::FeederProblem& problem)
-      : folder_(folder), inside_(fs::path(folder) / "quarantine"), problem_(problem) {}
+  Files(const std::string& folder, const Kind& kind)
+      : folder_(folder), inside_(fs::path(folder) / "quarantine"), kind_(kind) {}
 
   void add(const std::string& id, const Subject& subject, Failure failure, const std::string& text, int times) {
-    OrderedJson entry{{"id", id}, {"failure", name(failure)}, {"text", text}, {"times", times}};
+    nlohmann::ordered_json entry{{"id", id}, {"failure", name(failure)}, {"text", text}, {"times", times}};
     if (subject.stage) {
-      if (const StagedProblem* stages = problem_.staged())
+      if (const StagedProblem* stages = kind_.problem().staged())
         entry["stage"] = stages->kinds()[static_cast<std::size_t>(subject.place)].label;
       entry["values"] = subject.values;
     } else {
@@ -51,26 +50,25 @@ class Files {
 
   void write_design(const std::string& id, const Subject& subject, const std::string& text) {
     make_folder();
-    const std::vector<double> values = problem_.all_values({subject.place, subject.values});
-    OrderedJson design{{"id", id}, {"topology", subject.place}};
-    design["label"] = problem_.topologies()[static_cast<std::size_t>(subject.place)].label;
-    design["features"] = features_json(problem_.literal_design(subject.place, values));
-    design["values"] = values_json(problem_, subject.place, values);
+    const std::vector<double> values = all_values(kind_.problem(), {subject.place, subject.values});
+    nlohmann::ordered_json design{{"id", id}, {"topology", subject.place}};
+    design["label"] = kind_.problem().topologies()[static_cast<std::size_t>(subject.place)].label;
+    design.update(kind_.design_keys(subject.place, values));
     design["provenance"] = text;
     write_file((inside_ / (id + ".json")).string(), design.dump(1) + "\n");
   }
 
   std::string folder_;
   fs::path inside_;
-  const feeder::FeederProblem& problem_;
-  OrderedJson list_ = OrderedJson::array();
+  const Kind& kind_;
+  nlohmann::ordered_json list_ = nlohmann::ordered_json::array();
 };
 
 }  // namespace
 
-void write_quarantine(const std::string& folder, const feeder::FeederProblem& problem, const Quarantine& quarantine,
+void write_quarantine(const std::string& folder, const Kind& kind, const Quarantine& quarantine,
                       const RunState& state) {
-  Files files(folder, problem);
+  Files files(folder, kind);
   for (const Incident& incident : quarantine.incidents()) {
     const std::string id = std::string(name(incident.failure)) + "-" + std::to_string(files.count() + 1);
     files.add(id, incident.subject, incident.failure, incident.text, incident.times);

@@ -3,15 +3,14 @@
 
 #include <string>
 
-#include "applications/feeder/feeder_problem.hpp"
 #include "optimize/quarantine.hpp"
 #include "optimize/run_state.hpp"
+#include "report/kind.hpp"
 
 namespace formotion {
 
 // A design file for every candidate that crashed, took too long or threw, and list.json with the commands that repeat
 // them. No folder where nothing went wrong. Throws StoreError.
-void write_quarantine(const std::string& folder, const feeder::FeederProblem& problem, const Quarantine& quarantine,
-                      const RunState& state);
+void write_quarantine(const std::string& folder, const Kind& kind, const Quarantine& quarantine, const RunState& state);
 
 }  // namespace formotion

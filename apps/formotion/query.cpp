@@ -19,7 +19,8 @@ const std::vector<std::string> kTypes{"support", "clearance", "contacts", "motio
 // A design with the worlds of its aspects, made when they are asked for.
 class Answers {
  public:
-  explicit Answers(const ChosenDesign& chosen) : chosen_(chosen), shapes_(chosen.problem->shapes(chosen.values)) {}
+  explicit Answers(const ChosenDesign& chosen)
+      : chosen_(chosen), problem_(chosen.file.feeder), shapes_(problem_.shapes(chosen.values)) {}
 
   OrderedJson operator()(const OrderedJson& request, IssueList& issues) {
     ObjectReader object(request, "", issues);
@@ -78,7 +79,7 @@ class Answers {
   }
 
   OrderedJson support(const std::string& aspect, const Configuration& q) const {
-    const feeder::SupportAnswer found = chosen_.problem->support(chosen_.topology, chosen_.values, aspect, q);
+    const feeder::SupportAnswer found = problem_.support(chosen_.topology, chosen_.values, aspect, q);
     OrderedJson json{{"supported", found.supported}};
     json["margin_mm"] = found.margin_mm ? OrderedJson(*found.margin_mm + 0.0) : OrderedJson(nullptr);
     return json;
@@ -87,12 +88,13 @@ class Answers {
   const QueriedWorld& world(const std::string& aspect) {
     const auto known = worlds_.find(aspect);
     if (known != worlds_.end()) return known->second;
-    feeder::World made = chosen_.problem->world(chosen_.topology, chosen_.values, aspect);
-    WrittenNames names(*chosen_.problem, chosen_.topology, chosen_.values, aspect, made);
+    feeder::World made = problem_.world(chosen_.topology, chosen_.values, aspect);
+    WrittenNames names(problem_, chosen_.topology, chosen_.values, aspect, made);
     return worlds_.emplace(aspect, QueriedWorld{std::move(made), std::move(names)}).first->second;
   }
 
   const ChosenDesign& chosen_;
+  feeder::FeederProblem problem_;
   std::vector<feeder::AspectShape> shapes_;
   std::map<std::string, QueriedWorld> worlds_;
 };
@@ -138,6 +140,8 @@ Configuration read_configuration(const OrderedJson& value, const std::string& po
 
 int run_query(const DesignChoice& choice) {
   const ChosenDesign chosen = chosen_design(choice);
+  if (chosen.file.assembly)
+    throw InputError({{choice.problem, "/kind", false, "'assembly', which query does not answer yet", "feeder"}});
   Answers answers(chosen);
   std::string line;
   while (std::getline(std::cin, line)) {

@@ -6,7 +6,6 @@
 #include <iostream>
 #include <memory>
 
-#include "chosen_design.hpp"
 #include "cluster/work_queue_engine.hpp"
 #include "commands.hpp"
 #include "optimize/guarded_problem.hpp"
@@ -14,6 +13,7 @@
 #include "optimize/search.hpp"
 #include "progress.hpp"
 #include "quarantine_files.hpp"
+#include "report/kind.hpp"
 #include "report/run_files.hpp"
 
 namespace formotion {
@@ -45,8 +45,9 @@ std::unique_ptr<Engine> engine_for(const RunOptions& options, const Problem& gua
   return make_work_queue_engine(queue, quarantine, on_incident);
 }
 
-int search_and_write(RunStore& store, RunState& state, const ProblemFile& file, const feeder::FeederProblem& problem,
-                     const std::string& folder, const RunOptions& options) {
+int search_and_write(RunStore& store, RunState& state, const Kind& kind, const std::string& folder,
+                     const RunOptions& options) {
+  const Problem& problem = kind.problem();
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   Progress progress(problem, store.identity().budget, state, options.json_log);
@@ -57,24 +58,24 @@ int search_and_write(RunStore& store, RunState& state, const ProblemFile& file, 
   RunWatch watch(store, folder);
   note_fatal_signals();
   const GuardedProblem guarded(problem, watch.quarantine, &watch.marks);
-  write_quarantine(folder, problem, watch.quarantine, state);
+  write_quarantine(folder, kind, watch.quarantine, state);
   SearchEnd end;
   {
     const auto on_incident = [&](const Incident& incident) {
       store.save(incident);
-      write_quarantine(folder, problem, watch.quarantine, state);
+      write_quarantine(folder, kind, watch.quarantine, state);
     };
     const auto engine = engine_for(options, guarded, folder, watch.quarantine, on_incident, progress);
     end = search(guarded, state, &store, *engine, search_options);
   }
-  write_quarantine(folder, problem, watch.quarantine, state);
+  write_quarantine(folder, kind, watch.quarantine, state);
   if (end == SearchEnd::Stopped) {
     progress.say("stopped after " + std::to_string(state.spent()) + " evaluations; go on with: formotion resume " +
                  folder);
     return kStopped;
   }
   const RunSummary run = summary(state, store.identity(), true);
-  write_run_files(folder, file, problem, run);
+  kind.write_files(folder, run);
   const bool feasible = run.feasible > 0;
   std::string last = std::to_string(run.evaluations) + " evaluations, " + std::to_string(run.feasible) + " feasible; ";
   last += feasible ? std::to_string(run.front.size()) + " designs on the front"
@@ -88,26 +89,26 @@ int search_and_write(RunStore& store, RunState& state, const ProblemFile& file, 
 }  // namespace
 
 int run_optimize(const RunOptions& options) {
-  const ProblemFile file = read_feeder_problem(options.problem);
-  const feeder::FeederProblem problem(file.feeder);
+  const ProblemFile file = read_problem_file(options.problem);
+  const std::unique_ptr<Kind> kind = kind_of(file);
   const std::string folder = options.out.empty() ? default_folder(file) : options.out;
   const RunIdentity identity{file.canonical, options.problem, FORMOTION_VERSION,
                              options.evaluations.value_or(file.search.evaluations),
                              options.seed.value_or(file.search.seed)};
   RunStore store = RunStore::create(folder, identity, options.overwrite);
   write_file((std::filesystem::path(folder) / "problem.json").string(), problem_json_text(file, identity));
-  RunState state(problem);
-  return search_and_write(store, state, file, problem, folder, options);
+  RunState state(kind->problem());
+  return search_and_write(store, state, *kind, folder, options);
 }
 
 int run_resume(const std::string& folder, const RunOptions& options) {
   RunStore store = RunStore::open_for_writing(folder, FORMOTION_VERSION);
   const ProblemFile file = parse_problem(store.identity().problem_text, store.identity().problem_path);
-  const feeder::FeederProblem problem(file.feeder);
-  RunState state(problem);
+  const std::unique_ptr<Kind> kind = kind_of(file);
+  RunState state(kind->problem());
   store.load(state);
   write_file((std::filesystem::path(folder) / "problem.json").string(), problem_json_text(file, store.identity()));
-  return search_and_write(store, state, file, problem, folder, options);
+  return search_and_write(store, state, *kind, folder, options);
 }
 
 }  // namespace formotion

@@ -19,37 +19,16 @@ Json degrees(double rad) { return number(std::round(rad * 180 / std::numbers::pi
 
 Json point(const Point& p) { return {number(p.x()), number(p.y())}; }
 
-const char* mode_name(ContactMode mode) {
-  switch (mode) {
-    case ContactMode::Break:
-      return "break";
-    case ContactMode::Stick:
-      return "stick";
-    case ContactMode::SlideLeft:
-      return "slide-left";
-    case ContactMode::SlideRight:
-      return "slide-right";
-  }
-  return "break";
-}
-
-// Features by their numbers in the shapes as the scene has them.
 Json contacts_json(const Scene& scene, const std::vector<CarriedContact>& contacts) {
   Json json = Json::array();
   for (const CarriedContact& contact : contacts) {
-    const bool on_edge = contact.pair.kind == ContactKind::CornerOnEdge;
-    const Obstacles& obstacles = scene.obstacles;
-    const bool of_edge = contact.pair.kind == ContactKind::EdgeOnCorner;
-    const int moving =
-        of_edge ? scene.part.edges[contact.pair.moving].index : scene.part.corners[contact.pair.moving].index;
-    const auto& fixed = on_edge ? obstacles.edges[contact.pair.fixed].name : obstacles.corners[contact.pair.fixed].name;
-    json.push_back({{"type", of_edge ? "EV" : "VE"},
-                    {"moving", moving},
-                    {"fixed", {fixed.component, fixed.index}},
-                    {"point_mm", point(contact.point)},
-                    {"normal", point(contact.normal)},
-                    {"mode", mode_name(contact.mode)},
-                    {"force_n", {number(contact.force.normal), number(contact.force.tangential)}}});
+    Json one{{"type", kind_word(contact.pair.kind)}};
+    one.update(features_json(scene.part, scene.obstacles, contact.pair));
+    one["point_mm"] = point(contact.point);
+    one["normal"] = point(contact.normal);
+    one["mode"] = mode_word(contact.mode);
+    one["force_n"] = {number(contact.force.normal), number(contact.force.tangential)};
+    json.push_back(std::move(one));
   }
   return json;
 }
@@ -106,6 +85,30 @@ Json never_json(const NeverResult& never) {
 }
 
 }  // namespace
+
+const char* mode_word(ContactMode mode) {
+  switch (mode) {
+    case ContactMode::Break:
+      return "break";
+    case ContactMode::Stick:
+      return "stick";
+    case ContactMode::SlideLeft:
+      return "slide-left";
+    case ContactMode::SlideRight:
+      return "slide-right";
+  }
+  return "break";
+}
+
+const char* kind_word(ContactKind kind) { return kind == ContactKind::EdgeOnCorner ? "EV" : "VE"; }
+
+nlohmann::ordered_json features_json(const MovingShape& part, const Obstacles& obstacles, const ContactPair& pair) {
+  const FixedName& fixed =
+      pair.kind == ContactKind::CornerOnEdge ? obstacles.edges[pair.fixed].name : obstacles.corners[pair.fixed].name;
+  const int moving =
+      pair.kind == ContactKind::EdgeOnCorner ? part.edges[pair.moving].index : part.corners[pair.moving].index;
+  return {{"moving", moving}, {"fixed", {fixed.component, fixed.index}}};
+}
 
 Json metrics_json(const Metrics& m) {
   return {{"success_fraction", number(m.success_fraction)},

@@ -19,4 +19,9 @@ nlohmann::ordered_json values_json(const assembly::AssemblyProblem& problem, int
 // A design with literal numbers, as a design file's `fixed_mm` (and `chamfer_mm`).
 nlohmann::ordered_json shapes_json(const assembly::DesignSpec& literal);
 
+// The features of a contact, by their numbers in the shapes: {moving, fixed: [component, index]}.
+nlohmann::ordered_json features_json(const MovingShape& part, const Obstacles& obstacles, const ContactPair& pair);
+const char* kind_word(ContactKind kind);  // "EV" or "VE"
+const char* mode_word(ContactMode mode);  // "stick", "slide-left", ...
+
 }  // namespace formotion

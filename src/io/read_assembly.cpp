@@ -183,6 +183,9 @@ void read_assembly_environment(const Json* value, assembly::AssemblySpec& spec, 
                        "exactly one of compliance and damper");
   }
   spec.support.damper = !spring && damper;
+  if (spec.support.damper) {
+    context.issues.add(object.at("damper"), "a damper, which this version reads and does not follow yet", "compliance");
+  }
   if (spring) read_support(*spring, object.at("compliance"), spec, context);
   if (!spring && damper) read_support(*damper, object.at("damper"), spec, context);
   if (const Json* approach = object.require("approach", "an approach {\"distance_mm\", ...}"))

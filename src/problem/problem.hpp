@@ -110,4 +110,13 @@ class Problem {
   virtual const SmoothProblem* smooth() const { return nullptr; }
 };
 
+// Values of all the problem's variables, in order: the candidate's, and the starting values of the others.
+inline std::vector<double> all_values(const Problem& problem, const Candidate& candidate) {
+  std::vector<double> values;
+  for (const Variable& variable : problem.variables()) values.push_back(variable.start());
+  const std::vector<int>& used = problem.topologies()[candidate.topology].variables;
+  for (std::size_t i = 0; i < used.size(); ++i) values[used[i]] = candidate.values[i];
+  return values;
+}
+
 }  // namespace formotion

@@ -1,10 +1,12 @@
-#include <cmath>
 #include <filesystem>
+#include <iomanip>
+#include <sstream>
 
 #include "applications/assembly/assembly_problem.hpp"
 #include "io/assembly_json.hpp"
 #include "report/joint_data.hpp"
-#include "report/kinds.hpp"
+#include "report/joint_drawing.hpp"
+#include "report/kind.hpp"
 #include "report/report_page.hpp"
 #include "report/run_data.hpp"
 #include "report/run_files.hpp"
@@ -21,7 +23,6 @@ class AssemblyKind final : public Kind {
   explicit AssemblyKind(ProblemFile file) : file_(std::move(file)), problem_(*file_.assembly) {}
 
   const Problem& problem() const override { return problem_; }
-  std::vector<double> all_values(const Candidate& candidate) const override { return problem_.all_values(candidate); }
   OrderedJson design_keys(int topology, std::span<const double> values) const override {
     OrderedJson json = shapes_json(problem_.literal_design(topology, values));
     json["values"] = values_json(problem_, topology, values);
@@ -34,15 +35,16 @@ class AssemblyKind final : public Kind {
     json.update(shapes_json(problem_.literal_design(topology, values)));
     return json;
   }
-  std::string drawing(int, std::span<const double>, const std::string& format) const override {
-    throw InputError({{file_.path, "", false, "--format " + format + " of an assembly", "json"}});
+  std::string drawing(int topology, std::span<const double> values, const std::string& format) const override {
+    return drawn(file_.name, topology, values, problem_.evaluate(topology, values), format);
   }
 
   std::string design_file(const Evaluated& design, const std::string& format) const override {
-    const std::vector<double> values = problem_.all_values(design.candidate);
+    const std::vector<double> values = all_values(problem_, design.candidate);
     const int topology = design.candidate.topology;
-    if (format != "json") return drawing(topology, values, format);
-    return entry(design, values, problem_.evaluate(topology, values)).dump(1) + "\n";
+    const assembly::AssemblyEvaluation evaluation = problem_.evaluate(topology, values);
+    if (format != "json") return drawn(title(design), topology, values, evaluation, format);
+    return entry(design, values, evaluation).dump(1) + "\n";
   }
 
   std::string front_csv(const RunSummary& run) const override {
@@ -53,7 +55,7 @@ class AssemblyKind final : public Kind {
     for (const Evaluated& design : run.front) {
       text += design_id(design) + (design.score.feasible ? ",true" : ",false");
       for (const double value : design.score.objectives) text += "," + OrderedJson(value).dump();
-      for (const double value : problem_.all_values(design.candidate)) text += "," + OrderedJson(value).dump();
+      for (const double value : all_values(problem_, design.candidate)) text += "," + OrderedJson(value).dump();
       text += "\n";
     }
     return text;
@@ -77,8 +79,14 @@ class AssemblyKind final : public Kind {
     fs::remove_all(designs, error);
     fs::create_directories(designs, error);
     if (error) throw StoreError(designs.string() + ": cannot be made: " + error.message());
-    for (std::size_t i = 0; i < front.size(); ++i)
-      write_file((designs / (design_id(front[i].design) + ".json")).string(), pareto["designs"][i].dump(1) + "\n");
+    for (std::size_t i = 0; i < front.size(); ++i) {
+      const auto& [design, values, evaluation] = front[i];
+      const std::string stem = (designs / design_id(design)).string();
+      write_file(stem + ".json", pareto["designs"][i].dump(1) + "\n");
+      for (const char* format : {"svg", "dxf"}) {
+        write_file(stem + "." + format, drawn(title(design), design.candidate.topology, values, evaluation, format));
+      }
+    }
     write_file((fs::path(folder) / "report.html").string(), report_page(page(run, nullptr, front)));
   }
 
@@ -92,11 +100,27 @@ class AssemblyKind final : public Kind {
   std::vector<Judged> judged(const RunSummary& run) const {
     std::vector<Judged> all;
     for (const Evaluated& design : run.front) {
-      std::vector<double> values = problem_.all_values(design.candidate);
+      std::vector<double> values = all_values(problem_, design.candidate);
       assembly::AssemblyEvaluation evaluation = problem_.evaluate(design.candidate.topology, values);
       all.push_back({design, std::move(values), std::move(evaluation)});
     }
     return all;
+  }
+
+  std::string title(const Evaluated& design) const { return file_.name + ", design " + design_id(design); }
+
+  std::string drawn(const std::string& title, int topology, std::span<const double> values,
+                    const assembly::AssemblyEvaluation& evaluation, const std::string& format) const {
+    const assembly::AssemblySpec& spec = problem_.spec();
+    const assembly::Joint joint = problem_.joint(topology, values);
+    JointDrawing drawing{
+        title, joint.fixed_mm, joint.part, joint.centre_mm, spec.approach.direction_rad, spec.goal.depth_mm, {}};
+    std::ostringstream share;
+    share << "of all starts " << std::fixed << std::setprecision(1) << 100 * evaluation.metrics.success_fraction
+          << " % assemble, with " << evaluation.metrics.peak_force_n << " N at most";
+    drawing.notes.push_back(share.str());
+    if (!evaluation.feasible) drawing.notes.push_back("NOT FEASIBLE: " + evaluation.violations.front().what);
+    return format == "svg" ? joint_svg(drawing) : joint_dxf(drawing);
   }
 
   // A valid design file that also says where it comes from and what it scored.
@@ -124,7 +148,7 @@ class AssemblyKind final : public Kind {
     json["problem"] = std::move(asked);
     add_run(json, problem_, run, other);
     json["designs"] = OrderedJson::array();
-    int spaces = 0;
+    int spaces = 1;  // one is the knee's, which the page opens with
     for (const Judged& one : front) {
       const int topology = one.design.candidate.topology;
       OrderedJson answer = evaluation_json(problem_, topology, one.values, one.evaluation);
@@ -133,7 +157,9 @@ class AssemblyKind final : public Kind {
       for (const char* key : {"feasible", "metrics", "worst_case", "violations"}) design[key] = answer[key];
       design["values"] = values_json(problem_, topology, one.values);
       design["shapes"] = shapes_json(problem_.literal_design(topology, one.values));
-      design["joint"] = joint_json(problem_, topology, one.values, one.evaluation, spaces++ < kMostSpaces);
+      const bool is_knee = !json["knee"].is_null() && json["knee"]["id"] == design_id(one.design);
+      const bool with_space = is_knee || spaces++ < kMostSpaces;
+      design["joint"] = joint_json(problem_, topology, one.values, one.evaluation, with_space);
       design["commands"] = commands_json(file_, design_id(one.design));
       json["designs"].push_back(std::move(design));
     }

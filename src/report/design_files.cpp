@@ -39,7 +39,7 @@ TrackDrawing drawing_of(const std::string& name, const feeder::FeederProblem& pr
 }  // namespace
 
 JudgedDesign judged(const feeder::FeederProblem& problem, const Evaluated& design) {
-  std::vector<double> values = problem.all_values(design.candidate);
+  std::vector<double> values = all_values(problem, design.candidate);
   feeder::FeederEvaluation evaluation = problem.evaluate(design.candidate.topology, values);
   return {design, std::move(values), std::move(evaluation)};
 }

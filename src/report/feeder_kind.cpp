@@ -1,7 +1,7 @@
 #include "applications/feeder/feeder_problem.hpp"
 #include "io/feeder_json.hpp"
 #include "report/design_files.hpp"
-#include "report/kinds.hpp"
+#include "report/kind.hpp"
 #include "report/report_data.hpp"
 #include "report/run_files.hpp"
 
@@ -13,7 +13,6 @@ class FeederKind final : public Kind {
   explicit FeederKind(ProblemFile file) : file_(std::move(file)), problem_(file_.feeder) {}
 
   const Problem& problem() const override { return problem_; }
-  std::vector<double> all_values(const Candidate& candidate) const override { return problem_.all_values(candidate); }
   OrderedJson design_keys(int topology, std::span<const double> values) const override {
     OrderedJson json;
     json["features"] = features_json(problem_.literal_design(topology, values));
@@ -59,9 +58,5 @@ class FeederKind final : public Kind {
 }  // namespace
 
 std::unique_ptr<Kind> feeder_kind(ProblemFile file) { return std::make_unique<FeederKind>(std::move(file)); }
-
-std::unique_ptr<Kind> kind_of(ProblemFile file) {
-  return file.assembly ? assembly_kind(std::move(file)) : feeder_kind(std::move(file));
-}
 
 }  // namespace formotion

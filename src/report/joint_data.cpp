@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "analysis/contact/free_slice.hpp"
+#include "io/assembly_json.hpp"
 
 namespace formotion {
 namespace {
@@ -32,17 +33,10 @@ Json loop(const Loop& points, const Point& minus = Point::Zero()) {
 }
 Json interval(const Interval& i, double per = 1) { return {mm(i.min * per), mm(i.max * per)}; }
 
-const char* word(ContactMode mode) {
-  return mode == ContactMode::Stick ? "stick" : mode == ContactMode::SlideLeft ? "slide-left" : "slide-right";
-}
-const char* kind_word(ContactKind kind) { return kind == ContactKind::EdgeOnCorner ? "EV" : "VE"; }
-
 Json pair_json(const ContactSpace& space, const ContactPair& pair) {
-  const FixedName& name = pair.kind == ContactKind::CornerOnEdge ? space.obstacles.edges[pair.fixed].name
-                                                                 : space.obstacles.corners[pair.fixed].name;
-  const int moving = pair.kind == ContactKind::EdgeOnCorner ? space.part.edges[pair.moving].index
-                                                            : space.part.corners[pair.moving].index;
-  return {{"kind", kind_word(pair.kind)}, {"moving", moving}, {"fixed", {name.component, name.index}}};
+  Json json{{"kind", kind_word(pair.kind)}};
+  json.update(features_json(space.part, space.obstacles, pair));
+  return json;
 }
 
 Json moment_json(const ContactSpace& space, const InsertionMoment& moment) {
@@ -58,7 +52,7 @@ Json moment_json(const ContactSpace& space, const InsertionMoment& moment) {
     Json one = pair_json(space, contact.pair);
     one["point"] = point(contact.point);
     one["normal"] = point(contact.normal);
-    one["mode"] = word(contact.mode);
+    one["mode"] = mode_word(contact.mode);
     one["force"] = {mm(contact.force.normal), mm(contact.force.tangential)};
     json["contacts"].push_back(std::move(one));
   }

@@ -19,9 +19,8 @@ class Kind {
  public:
   virtual ~Kind() = default;
   virtual const Problem& problem() const = 0;
-  // Of all the problem's variables: the candidate's, and the starting values of the others.
-  virtual std::vector<double> all_values(const Candidate& candidate) const = 0;
-  // A design's shapes with literal numbers (`features`, `fixed_mm`) and its `values`: keys of a design file.
+  // Below, values are of all the problem's variables, in order. A design's shapes with literal numbers (`features`,
+  // `fixed_mm`) and its `values`: keys of a design file.
   virtual nlohmann::ordered_json design_keys(int topology, std::span<const double> values) const = 0;
   // The answer of `evaluate`; as a drawing: format svg or dxf.
   virtual nlohmann::ordered_json evaluation(int topology, std::span<const double> values) const = 0;
@@ -34,7 +33,10 @@ class Kind {
   virtual void write_files(const std::string& folder, const RunSummary& run) const = 0;
 };
 
-// file: moved in.
-std::unique_ptr<Kind> kind_of(ProblemFile file);
+std::unique_ptr<Kind> feeder_kind(ProblemFile file);
+std::unique_ptr<Kind> assembly_kind(ProblemFile file);
+inline std::unique_ptr<Kind> kind_of(ProblemFile file) {
+  return file.assembly ? assembly_kind(std::move(file)) : feeder_kind(std::move(file));
+}
 
 }  // namespace formotion

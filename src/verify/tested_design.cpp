@@ -100,7 +100,7 @@ std::string TestedDesign::pose_name(const PoseTravel& arrival) const {
 TestedDesign tested_design(const FeederProblem& problem, const Evaluated& stored) {
   const FeederSpec& spec = problem.spec();
   const int topology = stored.candidate.topology;
-  std::vector<double> values = problem.all_values(stored.candidate);
+  std::vector<double> values = all_values(problem, stored.candidate);
   PartModel part = part_model(spec.part, spec.environment, values);
   Layout layout = lay_out(spec.designs[static_cast<std::size_t>(topology)], spec.environment, spec.manufacture,
                           part.diameter_mm, values);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/json_document.hpp"
+#include "io/patched.hpp"
 
 using namespace formotion;
 using Json = nlohmann::ordered_json;
@@ -20,29 +21,9 @@ const char* const kGood = R"({
   "goal": {"deliver": "one pose"}
 })";
 
-std::vector<InputIssue> issues_of(const std::string& text) {
-  try {
-    parse_problem(text, "p.json");
-  } catch (const InputError& error) { return error.issues; }
-  return {};
-}
-
-// kGood with the value at a pointer replaced ("~" takes it out).
 std::string patched(const std::string& pointer, const std::string& value) {
-  Json document = Json::parse(kGood);
-  const Json::json_pointer at(pointer);
-  if (value == "~") {
-    document[at.parent_pointer()].erase(at.back());
-  } else {
-    document[at] = Json::parse(value);
-  }
-  return document.dump();
+  return formotion::patched(kGood, pointer, value);
 }
-
-struct Bad {
-  std::string pointer, value;  // the patch
-  std::string where, words;    // the issue's pointer, and what its line must say
-};
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "io/patched.hpp"
 #include "io/problem_file.hpp"
 
 using namespace formotion;
@@ -25,29 +26,9 @@ const char* const kGood = R"({
   "uncertainty": {"center_mm": 0.5, "kx_n_per_mm": [1, 3]}
 })";
 
-std::vector<InputIssue> issues_of(const std::string& text) {
-  try {
-    parse_problem(text, "p.json");
-  } catch (const InputError& error) { return error.issues; }
-  return {};
-}
-
-// kGood with the value at a pointer replaced ("~" takes it out).
 std::string patched(const std::string& pointer, const std::string& value) {
-  Json document = Json::parse(kGood);
-  const Json::json_pointer at(pointer);
-  if (value == "~") {
-    document[at.parent_pointer()].erase(at.back());
-  } else {
-    document[at] = Json::parse(value);
-  }
-  return document.dump();
+  return formotion::patched(kGood, pointer, value);
 }
-
-struct Bad {
-  std::string pointer, value;  // the patch
-  std::string where, words;    // the issue's pointer, and what its line must say
-};
 
 }  // namespace
 
@@ -97,6 +78,9 @@ TEST_CASE("each kind of bad assembly is one issue, at its place, in words") {
       {"/environment/compliance/kx_n_per_mm", "0", "/environment/compliance/kx_n_per_mm", "above 0"},
       {"/environment/compliance/kx_n_per_mm", "[3, 1]", "/environment/compliance/kx_n_per_mm", "min not above max"},
       {"/environment/compliance/center_mm", "[0]", "/environment/compliance/center_mm", "a point"},
+      {"/environment",
+       R"({"damper": {"bx_ns_per_mm": 1, "by_ns_per_mm": 1, "btheta_nmms_per_rad": 1}, "approach": {"distance_mm": 9}})",
+       "/environment/damper", "does not follow yet"},
       {"/environment/damper", "{}", "/environment", "exactly one of compliance and damper"},
       {"/environment/approach/distance_mm", "~", "/environment/approach/distance_mm", "how far"},
       {"/design", "~", "", "exactly one of design and topologies"},

@@ -165,7 +165,7 @@ TEST_CASE("a report keeps exact what reproduces a design, and rounds what is mea
     const Evaluated& design = run.run.front[i];
     const Json& json = data["designs"][i];
     CHECK(json["id"] == design_id(design));
-    const std::vector<double> all = run.problem.all_values(design.candidate);
+    const std::vector<double> all = all_values(run.problem, design.candidate);
     for (const int v : run.problem.topologies()[static_cast<std::size_t>(design.candidate.topology)].variables) {
       const std::string& name = run.problem.variables()[static_cast<std::size_t>(v)].name;
       const Json read_again = Json::parse(json["values"][name].dump());

@@ -88,8 +88,8 @@ struct Insertion {
 struct InsertionOptions {
   bool keep_path = false;
   int max_legs = 400;
-  int most_solves = 200000;  // of contact equations, in one branch: more is undecided
-  int max_branching = 3;     // ambiguities in a row that are followed
+  int most_solves = 20000;  // of contact equations, in one branch: more is undecided
+  int max_branching = 3;    // ambiguities in a row that are followed
 };
 
 // start: where the part (and with it the carrier) begins. Starts that overlap an obstacle are blocked.

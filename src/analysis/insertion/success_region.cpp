@@ -198,7 +198,7 @@ double share_of(const OutcomeRegion& region, int outcome) {
     const double mean = (share_of_row(region, rows[i], outcome) + share_of_row(region, rows[i + 1], outcome)) / 2;
     area += mean * (rows[i + 1].v - rows[i].v);
   }
-  return area / (region.box.v_max - region.box.v_min);
+  return std::min(1.0, area / (region.box.v_max - region.box.v_min));  // sums of rounded pieces
 }
 
 }  // namespace formotion

@@ -60,16 +60,8 @@ std::span<const Topology> AssemblyProblem::topologies() const { return model_->t
 std::span<const Objective> AssemblyProblem::objectives() const { return model_->spec.objectives; }
 const AssemblySpec& AssemblyProblem::spec() const { return model_->spec; }
 
-std::vector<double> AssemblyProblem::all_values(const Candidate& candidate) const {
-  std::vector<double> values;
-  for (const Variable& variable : model_->spec.variables) values.push_back(variable.start());
-  const std::vector<int>& used = model_->topologies[candidate.topology].variables;
-  for (std::size_t i = 0; i < used.size(); ++i) values[used[i]] = candidate.values[i];
-  return values;
-}
-
 Score AssemblyProblem::score(const Candidate& candidate, Memory*) const {
-  const Judged judged = judge(model_->spec, candidate.topology, all_values(candidate), false);
+  const Judged judged = judge(model_->spec, candidate.topology, all_values(*this, candidate), false);
   const AssemblyEvaluation& evaluation = judged.evaluation;
   Score score;
   score.feasible = evaluation.feasible;

@@ -40,8 +40,6 @@ class AssemblyProblem final : public Problem {
   Score score(const Candidate& candidate, Memory* memory = nullptr) const override;
 
   const AssemblySpec& spec() const;
-  // Values of all the problem's variables, in order: the candidate's, and the starting values of the others.
-  std::vector<double> all_values(const Candidate& candidate) const;
 
   // Below, values are of all the problem's variables, in order.
   AssemblyEvaluation evaluate(int topology, std::span<const double> values) const;

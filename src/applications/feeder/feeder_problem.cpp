@@ -20,12 +20,6 @@
 namespace formotion::feeder {
 namespace {
 
-std::vector<double> starting_values(const std::vector<Variable>& variables) {
-  std::vector<double> values;
-  for (const Variable& variable : variables) values.push_back(variable.start());
-  return values;
-}
-
 // A literal feature's numbers with the contract's names, angles in degrees.
 struct Dimensions {
   using List = std::vector<std::pair<std::string, double>>;
@@ -126,19 +120,12 @@ const StagedProblem* FeederProblem::staged() const { return model_->stages.get()
 const SmoothProblem* FeederProblem::smooth() const { return model_->residuals.get(); }
 const FeederSpec& FeederProblem::spec() const { return model_->spec; }
 
-std::vector<double> FeederProblem::all_values(const Candidate& candidate) const {
-  std::vector<double> values = starting_values(model_->spec.variables);
-  const std::vector<int>& used = model_->topologies[candidate.topology].variables;
-  for (std::size_t i = 0; i < used.size(); ++i) values[used[i]] = candidate.values[i];
-  return values;
-}
-
 std::unique_ptr<Memory> FeederProblem::memory() const {
   return model_->part ? std::make_unique<Passages>(*model_->part) : nullptr;
 }
 
 Score FeederProblem::score(const Candidate& candidate, Memory* memory) const {
-  const Judged judged = model_->judge(candidate.topology, all_values(candidate), false, memory);
+  const Judged judged = model_->judge(candidate.topology, all_values(*this, candidate), false, memory);
   Score score;
   score.feasible = judged.evaluation.feasible;
   score.violation = judged.violation;

@@ -57,8 +57,6 @@ class FeederProblem final : public Problem {
   const SmoothProblem* smooth() const override;
 
   const FeederSpec& spec() const;
-  // Values of all the problem's variables, in order: the candidate's, and the starting values of the others.
-  std::vector<double> all_values(const Candidate& candidate) const;
 
   // Below, values are of all the problem's variables, in order.
   FeederEvaluation evaluate(int topology, std::span<const double> values) const;

@@ -179,7 +179,7 @@ std::unique_ptr<SmoothPieces> as_pieces(const FeederSpec& spec, int topology, st
 
 std::unique_ptr<SmoothPieces> FeederResiduals::pieces(const Candidate& candidate, const SmoothAim& aim) const {
   const FeederSpec& spec = problem_.spec();
-  const std::vector<double> values = problem_.all_values(candidate);
+  const std::vector<double> values = all_values(problem_, candidate);
   const PartModel part = part_model(spec.part, spec.environment, values);
   const std::vector<Violation> defects = defects_of(part);
   const DesignCase design{spec, spec.designs[static_cast<std::size_t>(candidate.topology)], part, defects, values};
