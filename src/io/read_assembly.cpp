@@ -42,21 +42,21 @@ std::optional<std::pair<double, double>> read_interval(const Json& value, const 
 }
 
 // A number, an expression or an interval; the interval's middle is the value.
-assembly::Number read_uncertain(const Json& value, const std::string& pointer, const Range& range,
+Number read_uncertain(const Json& value, const std::string& pointer, const Range& range,
                                 ReadContext& context) {
   if (value.is_array()) {
     const auto interval = read_interval(value, pointer, range, context.issues);
-    return interval ? assembly::Number{{(interval->first + interval->second) / 2, {}}, interval} : assembly::Number{};
+    return interval ? Number{{(interval->first + interval->second) / 2, {}}, interval} : Number{};
   }
   if (value.is_number()) return {{read_number(value, pointer, range, context.issues).value_or(0), {}}, std::nullopt};
   return {read_expression(value, pointer, context.names, context.issues).value_or(Affine{}), std::nullopt};
 }
 
-assembly::Number required_uncertain(ObjectReader& object, const std::string& key, const Range& range,
+Number required_uncertain(ObjectReader& object, const std::string& key, const Range& range,
                                     assembly::AssemblySpec& spec, ReadContext& context) {
   const Json* value = object.require(key, "a number, an expression or an interval [min, max]");
   if (!value) return {};
-  const assembly::Number number = read_uncertain(*value, object.at(key), range, context);
+  const Number number = read_uncertain(*value, object.at(key), range, context);
   if (number.interval) spec.uncertainty.intervals[key] = *number.interval;
   return number;
 }
@@ -94,23 +94,23 @@ void read_approach(const Json& value, assembly::AssemblySpec& spec, ReadContext&
   object.finish();
 }
 
-assembly::Interval read_error(ObjectReader& object, const std::string& key, const Range& range, IssueList& issues) {
+Interval read_error(ObjectReader& object, const std::string& key, const Range& range, IssueList& issues) {
   const Json* value = object.find(key);
   if (!value) return {};
   if (value->is_array()) {
     const auto interval = read_interval(*value, object.at(key), range, issues);
-    return interval ? assembly::Interval{interval->first, interval->second} : assembly::Interval{};
+    return interval ? Interval{interval->first, interval->second} : Interval{};
   }
   const double number = read_number(*value, object.at(key), range, issues).value_or(0);
   return {number, number};
 }
 
-assembly::StartsSpec read_starts(const Json& value, const std::string& pointer, IssueList& issues) {
-  assembly::StartsSpec starts;
+StartsSpec read_starts(const Json& value, const std::string& pointer, IssueList& issues) {
+  StartsSpec starts;
   ObjectReader object(value, pointer, issues);
   starts.x_mm = read_error(object, "x_mm", kAny, issues);
   starts.y_mm = read_error(object, "y_mm", kAny, issues);
-  const assembly::Interval degrees = read_error(object, "theta_deg", kTurn, issues);
+  const Interval degrees = read_error(object, "theta_deg", kTurn, issues);
   starts.theta_rad = {radians(degrees.min), radians(degrees.max)};
   object.finish();
   return starts;
@@ -137,13 +137,13 @@ assembly::NeverSpec read_never(const Json& value, const std::string& pointer, bo
   return never;
 }
 
-void read_bounds(const Json& value, std::vector<assembly::Bound>& bounds, IssueList& issues) {
+void read_bounds(const Json& value, std::vector<Bound>& bounds, IssueList& issues) {
   ObjectReader object(value, "/goal/require", issues);
   for (const std::string& metric : kMetrics) {
     const Json* given = object.find(metric);
     if (!given) continue;
     ObjectReader limits(*given, object.at(metric), issues);
-    const assembly::Bound bound{metric, limits.number("min", kAny), limits.number("max", kAny)};
+    const Bound bound{metric, limits.number("min", kAny), limits.number("max", kAny)};
     limits.finish();
     if (limits.valid() && !bound.min && !bound.max)
       issues.add(object.at(metric), "neither min nor max", "at least one of them");
@@ -215,7 +215,7 @@ void read_assembly_goal(const Json& value, assembly::AssemblySpec& spec, ReadCon
 
 void read_assembly_uncertainty(const Json* value, assembly::AssemblySpec& spec, ReadContext& context) {
   if (!value) return;
-  assembly::Uncertainty& uncertainty = spec.uncertainty;
+  ShapeUncertainty& uncertainty = spec.uncertainty;
   ObjectReader object(*value, "/uncertainty", context.issues);
   uncertainty.outline_mm = object.number_or("outline_mm", kNotNegative, 0);
   uncertainty.feature_mm = object.number_or("feature_mm", kNotNegative, 0);

@@ -4,19 +4,10 @@
 #include <stdexcept>
 
 #include "applications/assembly/judge.hpp"
+#include "applications/shared/used_variables.hpp"
 
 namespace formotion::assembly {
 namespace {
-
-void collect(const Affine& a, std::set<int>& used) {
-  for (const auto& term : a.terms) used.insert(term.first);
-}
-void collect(const AffineLoop& loop, std::set<int>& used) {
-  for (const AffinePoint& p : loop) {
-    collect(p[0], used);
-    collect(p[1], used);
-  }
-}
 
 std::vector<Topology> topologies_of(const AssemblySpec& spec) {
   std::vector<Topology> topologies;
@@ -34,12 +25,6 @@ std::vector<Topology> topologies_of(const AssemblySpec& spec) {
         {std::to_string(shapes) + (shapes == 1 ? " fixed shape" : " fixed shapes"), {used.begin(), used.end()}});
   }
   return topologies;
-}
-
-AffineLoop literal(const AffineLoop& loop, std::span<const double> values) {
-  AffineLoop points;
-  for (const AffinePoint& p : loop) points.push_back({Affine{p[0](values), {}}, Affine{p[1](values), {}}});
-  return points;
 }
 
 }  // namespace
@@ -94,7 +79,7 @@ std::unique_ptr<Scene> AssemblyProblem::scene(int topology, std::span<const doub
 DesignSpec AssemblyProblem::literal_design(int topology, std::span<const double> values) const {
   const DesignSpec& design = model_->spec.designs[topology];
   DesignSpec literal_one;
-  for (const AffineLoop& loop : design.fixed_mm) literal_one.fixed_mm.push_back(literal(loop, values));
+  for (const AffineLoop& loop : design.fixed_mm) literal_one.fixed_mm.push_back(literal_loop(loop, values));
   if (design.chamfer_mm) literal_one.chamfer_mm = Affine{(*design.chamfer_mm)(values), {}};
   return literal_one;
 }

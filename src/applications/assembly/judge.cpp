@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "analysis/insertion/exclusion.hpp"
+#include "applications/shared/starts.hpp"
+#include "applications/shared/worst_members.hpp"
 
 namespace formotion::assembly {
 namespace {
@@ -13,14 +15,6 @@ namespace {
 constexpr double kWithin_mm = 1e-6;  // of a never-goal's depth
 
 const InsertionOptions kNoPath{};
-
-// Five values of an interval at most: ends, middle, quarters.
-std::vector<double> values_of(const Interval& interval, int count) {
-  if (interval.is_single() || count < 2) return {(interval.min + interval.max) / 2};
-  std::vector<double> values;
-  for (int i = 0; i < count; ++i) values.push_back(interval.min + i * (interval.max - interval.min) / (count - 1));
-  return values;
-}
 
 StartResult started(const InsertionTask& task, double x_mm, double y_mm, double theta_rad) {
   return {x_mm, y_mm, theta_rad, insert(task, start_with_errors(task, x_mm, y_mm, theta_rad), kNoPath)};
@@ -88,44 +82,27 @@ class DesignJudge {
   void success(const InsertionTask& task, Metrics& metrics, AssemblyEvaluation* evaluation) {
     const StartsSpec& starts = spec_.goal.starts;
     Peaks peaks;
-    RegionOptions options;
-    if (!in_detail_) {
-      options.starts_a_row = 5;
-      options.rows = 3;
-      options.most_rows = 9;
-      options.boundary = 1e-4;
-      options.history = 1.0 / 16;
-      options.row_error = 0.02;
-    }
-    double share = 0, capture = 1, weight_sum = 0;
-    const std::vector<double> ys = values_of(starts.y_mm, 3);
-    for (std::size_t i = 0; i < ys.size(); ++i) {
-      const double y = ys[i], weight = ys.size() == 3 && i == 1 ? 4 : 1;  // Simpson's rule
-      const auto at = [&](double x, double theta) {
-        const StartResult result = started(task, x, y, theta);
-        peaks.take(result.insertion);
-        ++work_;
-        return StartOutcome{static_cast<int>(result.insertion.outcome), result.insertion.history};
-      };
-      const ErrorBox box{starts.x_mm.min, starts.x_mm.max, starts.theta_rad.min, starts.theta_rad.max};
-      const OutcomeRegion region = outcome_region(box, at, options);
-      const int wanted = static_cast<int>(InsertionOutcome::Assembled);
-      share += weight * share_of(region, wanted);
-      weight_sum += weight;
-      capture = std::min(capture, largest_scaled_box(region, wanted, at, options));
-      if (evaluation) {
-        evaluation->regions.push_back(region);
-        evaluation->region_y_mm.push_back(y);
-      }
+    const auto at = [&](double x, double y, double theta) {
+      const StartResult result = started(task, x, y, theta);
+      peaks.take(result.insertion);
+      ++work_;
+      return StartOutcome{static_cast<int>(result.insertion.outcome), result.insertion.history};
+    };
+    const StartShares shares = shares_of_starts(starts, static_cast<int>(InsertionOutcome::Assembled), at,
+                                                in_detail_ ? RegionOptions{} : search_region_options());
+    if (evaluation) {
+      evaluation->regions = shares.regions;
+      evaluation->region_y_mm = shares.y_mm;
     }
     if (evaluation) {
       evaluation->starts = grid(task, starts, in_detail_ ? 5 : 3);
       for (const StartResult& start : evaluation->starts) peaks.take(start.insertion);
     }
-    metrics.success_fraction = share / weight_sum;
-    if (!starts.x_mm.is_single()) metrics.capture_mm = capture * (starts.x_mm.max - starts.x_mm.min) / 2;
+    metrics.success_fraction = shares.share;
+    if (!starts.x_mm.is_single()) metrics.capture_mm = shares.scaled_box * (starts.x_mm.max - starts.x_mm.min) / 2;
     if (!starts.theta_rad.is_single())
-      metrics.capture_deg = capture * (starts.theta_rad.max - starts.theta_rad.min) / 2 * 180 / std::numbers::pi;
+      metrics.capture_deg =
+          shares.scaled_box * (starts.theta_rad.max - starts.theta_rad.min) / 2 * 180 / std::numbers::pi;
     metrics.peak_force_n = peaks.axial_n;
     metrics.peak_lateral_force_n = peaks.lateral_n;
     metrics.work_nmm = peaks.work_nmm;
@@ -173,44 +150,16 @@ class DesignJudge {
     return result;
   }
 
-  // One uncertain quantity at an end of its interval at a time, then all at those ends that were worse.
   void worst_case(AssemblyEvaluation& evaluation) {
     if (!spec_.uncertainty.any() || spec_.objectives.empty()) return;
-    const Uncertainty& u = spec_.uncertainty;
-    std::vector<Member> members;
-    for (const auto& [name, range] : u.intervals) {
-      for (const double end : {range.first, range.second}) members.push_back({name, {{name, end}}, 0, Point::Zero()});
-    }
-    for (const auto& [name, by] : {std::pair{"outline_mm", u.outline_mm}, {"feature_mm", u.feature_mm}}) {
-      for (const double end : {-by, by}) {
-        if (by > 0) members.push_back({name, {}, end, Point::Zero()});
-      }
-    }
-    for (const Point& way : {Point(1, 0), Point(-1, 0), Point(0, 1), Point(0, -1)}) {
-      if (u.centre_mm > 0) members.push_back({"center_mm", {}, 0, u.centre_mm * way});
-    }
-    std::map<std::string, std::pair<double, Member>> worse;  // the worse end of every quantity
     const Objective& first = spec_.objectives.front();
-    const double nominal = first.loss(objective(evaluation.metrics, first.name));
+    const auto loss = [&](const Metrics& metrics) { return first.loss(objective(metrics, first.name)); };
     Metrics worst = evaluation.metrics;
-    double bite = 0;
-    for (const Member& member : members) {
+    evaluation.bites = judge_ends(spec_.uncertainty, "center_mm", loss(worst), [&](const Member& member) {
       const Metrics metrics = member_metrics(member, nullptr);
       take_worse(worst, metrics);
-      const double loss = first.loss(objective(metrics, first.name)) - nominal;
-      if (!worse.count(member.name) || loss > worse[member.name].first) worse[member.name] = {loss, member};
-      if (loss > bite || !evaluation.bites) {
-        bite = std::max(bite, loss);
-        evaluation.bites = member.name;
-      }
-    }
-    Member all;
-    for (const auto& [name, end] : worse) {
-      all.values.insert(end.second.values.begin(), end.second.values.end());
-      all.grow_mm += end.second.grow_mm;
-      all.centre_off_mm += end.second.centre_off_mm;
-    }
-    if (worse.size() > 1) take_worse(worst, member_metrics(all, nullptr));
+      return loss(metrics);
+    });
     evaluation.worst_case = worst;
   }
 

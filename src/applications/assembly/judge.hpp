@@ -9,14 +9,6 @@
 
 namespace formotion::assembly {
 
-// What uncertain quantities are worth in one judgement; nominal: none given, nothing grown.
-struct Member {
-  std::string name;                      // of what differs from nominal; empty: nothing
-  std::map<std::string, double> values;  // of intervals
-  double grow_mm = 0;                    // of the fixed shapes
-  Point centre_off_mm = Point::Zero();   // of the compliance centre
-};
-
 // Why the shapes of a design cannot be used; empty if they can.
 std::vector<Violation> defects(const AssemblySpec& spec, int topology, std::span<const double> values);
 

@@ -17,8 +17,7 @@ Loop at(const AffineLoop& loop, std::span<const double> values) {
 }
 
 double worth(const Number& number, const std::string& name, std::span<const double> values, const Member& member) {
-  const auto given = member.values.find(name);
-  return given == member.values.end() ? number.value(values) : given->second;
+  return member.value_of(name, number.value(values));
 }
 
 // Runs of slanted edges of a closed line, by their extent across.

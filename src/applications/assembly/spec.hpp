@@ -2,24 +2,16 @@
 // approach, the goal. Filled by io, read by the assembly application. mm, N, rad.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "analysis/geometry/polygon.hpp"
-#include "problem/affine.hpp"
+#include "applications/shared/asked.hpp"
 #include "problem/problem.hpp"
 
 namespace formotion::assembly {
-
-// A number of a file that may be uncertain: its value, and the interval where it is [min, max] there (value: the
-// middle).
-struct Number {
-  Affine value;
-  std::optional<std::pair<double, double>> interval;
-};
 
 // One way to hold the part: "up" as drawn; "down" mirrored x -> -x about the compliance centre.
 struct PartSpec {
@@ -43,15 +35,6 @@ struct ApproachSpec {
   double speed_mm_s = 1;  // matters with a damper
 };
 
-struct Interval {
-  double min = 0, max = 0;
-  bool is_single() const { return min == max; }
-};
-
-struct StartsSpec {
-  Interval x_mm, y_mm, theta_rad;
-};
-
 struct NeverSpec {
   std::string aspect;  // "up", "down" or "any"
   double orientation_rad = 0;
@@ -65,22 +48,9 @@ struct GoalSpec {
   std::vector<NeverSpec> never;
 };
 
-// Bounds that feasible designs keep, by metric's name: {"success_fraction": {"min": 1}}.
-struct Bound {
-  std::string metric;
-  std::optional<double> min, max;
-};
-
 struct DesignSpec {
   std::vector<AffineLoop> fixed_mm;
   std::optional<Affine> chamfer_mm;  // else measured (docs/assembly.md)
-};
-
-struct Uncertainty {
-  double outline_mm = 0, feature_mm = 0;                       // half-widths
-  double centre_mm = 0;                                        // of the compliance centre, each way
-  std::map<std::string, std::pair<double, double>> intervals;  // "friction", "kx_n_per_mm", ...
-  bool any() const { return outline_mm > 0 || feature_mm > 0 || centre_mm > 0 || !intervals.empty(); }
 };
 
 struct AssemblySpec {
@@ -90,7 +60,7 @@ struct AssemblySpec {
   ApproachSpec approach;
   GoalSpec goal;
   std::vector<Bound> bounds;
-  Uncertainty uncertainty;
+  ShapeUncertainty uncertainty;  // centre: of compliance
   std::vector<Variable> variables;
   std::vector<DesignSpec> designs;  // one per topology
   std::vector<Objective> objectives;

@@ -8,20 +8,12 @@
 #include "analysis/contact/configuration.hpp"
 #include "applications/feeder/evaluation.hpp"
 #include "applications/feeder/spec.hpp"
+#include "applications/shared/part_shapes.hpp"
 #include "problem/problem.hpp"
 
 namespace formotion::feeder {
 
 // One aspect of the part with its expressions evaluated, moved so that its centre of mass is the origin.
-struct AspectShape {
-  std::string name;
-  Polygon footprint;            // what needs support; outer counter-clockwise
-  std::vector<Polygon> bodies;  // all layers (the footprint alone where there are none): what meets the wall
-  double height_mm = 0;
-  double com_height_mm = 0;
-  double probability = 1;
-};
-
 // One way to rest against the wall.
 struct StablePose {
   int aspect = 0;

@@ -3,71 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "analysis/resting/wall_poses.hpp"
 
 namespace formotion::feeder {
-namespace {
-
-constexpr double kSymmetry_mm = 1e-5;  // vertices that meet within this are the same
-
-bool is_literal(const AffineLoop& loop) {
-  return std::all_of(loop.begin(), loop.end(),
-                     [](const AffinePoint& p) { return p[0].is_literal() && p[1].is_literal(); });
-}
-
-Polygon evaluated_polygon(const AffineLoop& outline, const std::vector<AffineLoop>& holes,
-                          std::span<const double> values) {
-  Polygon polygon{evaluated(outline, values), {}};
-  for (const AffineLoop& hole : holes) polygon.holes.push_back(evaluated(hole, values));
-  return normalised(std::move(polygon));
-}
-
-AspectShape aspect_shape(const AspectSpec& spec, std::span<const double> values) {
-  AspectShape shape;
-  shape.name = spec.name;
-  shape.height_mm = spec.height_mm;
-  shape.probability = spec.probability;
-  Point first = Point::Zero();
-  double volume = 0, moment_z = 0;
-  if (spec.layers.empty()) {
-    shape.bodies.push_back(evaluated_polygon(spec.outline_mm, spec.holes_mm, values));
-    first = area_moments(shape.bodies.front()).centroid;
-    moment_z = 0.5 * spec.height_mm;
-  } else {
-    for (const LayerSpec& layer : spec.layers) {
-      shape.bodies.push_back(evaluated_polygon(layer.outline_mm, layer.holes_mm, values));
-      const AreaMoments moments = area_moments(shape.bodies.back());
-      const double piece = moments.area_mm2 * (layer.to_mm - layer.from_mm);
-      volume += piece;
-      first += piece * moments.centroid;
-      moment_z += piece * 0.5 * (layer.from_mm + layer.to_mm);
-    }
-    first /= volume;
-    moment_z /= volume;
-  }
-  const Point com = spec.com_mm.value_or(first);
-  shape.com_height_mm = spec.com_height_mm.value_or(spec.layers.empty() ? 0.5 * spec.height_mm : moment_z);
-  for (Polygon& body : shape.bodies) body = placed(body, 0, -com);
-  shape.footprint = shape.bodies.front();
-  return shape;
-}
-
-Loop all_corners(const AspectShape& shape) {
-  Loop corners;
-  for (const Polygon& body : shape.bodies) corners.insert(corners.end(), body.outer.begin(), body.outer.end());
-  return corners;
-}
-
-int common_order(const AspectShape& shape) {
-  int order = 0;
-  for (const Polygon& body : shape.bodies) order = std::gcd(order, rotational_order(body, Point::Zero(), kSymmetry_mm));
-  return std::max(order, 1);
-}
-
-}  // namespace
-
 PoseModel pose_model(const AspectShape& shape, const StablePose& stable, const Environment& environment) {
   PoseModel pose;
   pose.stable = stable;
@@ -88,31 +27,6 @@ PoseModel pose_model(const AspectShape& shape, const StablePose& stable, const E
 
 bool PoseModel::footprint_reaches(double y_mm) const { return bounding_box(footprint.outer).max.y() > y_mm; }
 
-Loop evaluated(const AffineLoop& loop, std::span<const double> values) {
-  Loop points;
-  points.reserve(loop.size());
-  for (const AffinePoint& p : loop) points.emplace_back(p[0](values), p[1](values));
-  return points;
-}
-
-bool is_literal(const PartSpec& part) {
-  const auto literal_all = [](const std::vector<AffineLoop>& loops) {
-    return std::all_of(loops.begin(), loops.end(), [](const AffineLoop& loop) { return is_literal(loop); });
-  };
-  return std::all_of(part.aspects.begin(), part.aspects.end(), [&](const AspectSpec& aspect) {
-    return is_literal(aspect.outline_mm) && literal_all(aspect.holes_mm) &&
-           std::all_of(aspect.layers.begin(), aspect.layers.end(), [&](const LayerSpec& layer) {
-             return is_literal(layer.outline_mm) && literal_all(layer.holes_mm);
-           });
-  });
-}
-
-std::vector<AspectShape> aspect_shapes(const PartSpec& part, std::span<const double> values) {
-  std::vector<AspectShape> shapes;
-  for (const AspectSpec& aspect : part.aspects) shapes.push_back(aspect_shape(aspect, values));
-  return shapes;
-}
-
 double wall_shift(double com_height_mm, const Environment& environment) {
   return com_height_mm * std::tan(environment.tilt_rad);
 }
@@ -124,7 +38,7 @@ PartModel part_model(const PartSpec& part, const Environment& environment, std::
     const AspectShape& shape = model.shapes[aspect];
     const Loop corners = all_corners(shape);
     model.diameter_mm = std::max(model.diameter_mm, diameter(corners));
-    model.symmetry.push_back(common_order(shape));
+    model.symmetry.push_back(rotational_order(shape));
     for (const WallPose& pose :
          merged_by_symmetry(wall_poses(corners, environment.settling_friction), model.symmetry.back())) {
       const StablePose stable{aspect,

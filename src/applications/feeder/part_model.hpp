@@ -6,6 +6,7 @@
 
 #include "analysis/constraints/support_travel.hpp"
 #include "applications/feeder/feeder_problem.hpp"
+#include "applications/shared/part_shapes.hpp"
 
 namespace formotion::feeder {
 
@@ -28,8 +29,6 @@ struct PartModel {
   double longest_mm = 0;   // the largest extent of a pose along the feed
 };
 
-bool is_literal(const PartSpec& part);
-std::vector<AspectShape> aspect_shapes(const PartSpec& part, std::span<const double> values);
 // Poses by aspect, then by orientation; their priors sum to 1 (where every aspect can rest).
 PartModel part_model(const PartSpec& part, const Environment& environment, std::span<const double> values);
 
@@ -38,7 +37,5 @@ PoseModel pose_model(const AspectShape& shape, const StablePose& stable, const E
 
 // How far the supported point lies nearer to the wall than the centre of mass.
 double wall_shift(double com_height_mm, const Environment& environment);
-
-Loop evaluated(const AffineLoop& loop, std::span<const double> values);
 
 }  // namespace formotion::feeder

@@ -12,33 +12,15 @@
 
 #include "analysis/contact/configuration.hpp"
 #include "analysis/geometry/polygon.hpp"
+#include "applications/shared/part_spec.hpp"
 #include "problem/affine.hpp"
 #include "problem/problem.hpp"
 
 namespace formotion::feeder {
 
-struct LayerSpec {
-  double from_mm = 0;  // height range above the track
-  double to_mm = 0;
-  AffineLoop outline_mm;
-  std::vector<AffineLoop> holes_mm;
-};
-
-// One way to lie: an outline as written in the file, seen from above.
-struct AspectSpec {
-  std::string name;  // "up", "down" or the user's
-  AffineLoop outline_mm;
-  std::vector<AffineLoop> holes_mm;
-  double height_mm = 0;                 // the part's thickness in this aspect
-  std::optional<Point> com_mm;          // default: the centroid (of the volume where there are layers)
-  std::optional<double> com_height_mm;  // above the track; default: half of height_mm
-  double probability = 1;
-  std::vector<LayerSpec> layers;  // ascending; the first is the footprint; empty: the outline at all heights
-};
-
-struct PartSpec {
-  std::vector<AspectSpec> aspects;  // probabilities sum to 1
-};
+using formotion::AspectSpec;
+using formotion::LayerSpec;
+using formotion::PartSpec;
 
 struct Environment {
   double track_width_mm = 0;

@@ -3,10 +3,9 @@
 
 #include "analysis/motion/projection.hpp"
 #include "applications/feeder/track_layout.hpp"
+#include "applications/shared/part_shapes.hpp"
 
 namespace formotion::feeder {
-
-struct AspectShape;
 
 struct World {
   MovingShape part;

@@ -1,0 +1,17 @@
+// A nest with one aspect of the part in it, for one member of what is uncertain.
+#pragma once
+
+#include "applications/nest/nest_problem.hpp"
+
+namespace formotion::nest {
+
+// Null where shapes vanish when they are grown or shrunk.
+std::unique_ptr<Scene> scene_of(const NestSpec& spec, int topology, std::span<const double> values,
+                                const AspectShape& shape, const Member& member = {});
+std::vector<Violation> defects_of(const NestSpec& spec, int topology, std::span<const double> values);
+Configuration seat_of(const NestSpec& spec, std::span<const double> values);
+
+// The directions and frictions that pushes can have, at this member of the rest.
+PushSet push_set(const NestSpec& spec, std::span<const double> values, const Member& member = {});
+
+}  // namespace formotion::nest
