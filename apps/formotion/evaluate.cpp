@@ -23,8 +23,7 @@ int run_validate(const std::string& problem, bool folder_only) {
     std::cout << default_folder(file) << "\n";
     return kDone;
   }
-  const std::size_t aspects = file.assembly ? (file.assembly->part.flips ? 2 : 1) : file.feeder.part.aspects.size();
-  std::cout << problem << ": good: " << file.kind << ", " << aspects << " aspects, " << topologies_in(file)
+  std::cout << problem << ": good: " << file.kind << ", " << aspects_in(file) << " aspects, " << topologies_in(file)
             << " topologies, " << variables_of(file).size() << " variables\n";
   if (!file.feeder.grammar) return kDone;
   std::int64_t pruned = 0;

@@ -140,8 +140,9 @@ Configuration read_configuration(const OrderedJson& value, const std::string& po
 
 int run_query(const DesignChoice& choice) {
   const ChosenDesign chosen = chosen_design(choice);
-  if (chosen.file.assembly)
-    throw InputError({{choice.problem, "/kind", false, "'assembly', which query does not answer yet", "feeder"}});
+  if (chosen.file.kind != "feeder")
+    throw InputError(
+        {{choice.problem, "/kind", false, "'" + chosen.file.kind + "', which query does not answer yet", "feeder"}});
   Answers answers(chosen);
   std::string line;
   while (std::getline(std::cin, line)) {

@@ -45,7 +45,7 @@ void keep_stamps(const std::string& folder, const std::map<std::string, std::str
 
 int run_verify(const std::string& folder, const VerifyCommand& command) {
   const LoadedRun loaded(folder);
-  if (loaded.file.assembly)
+  if (loaded.file.kind != "feeder")
     throw InputError({{folder, "/kind", false, "a run of an assembly, which verify does not check yet", "a feeder's"}});
   const feeder::FeederProblem problem(loaded.file.feeder);
   const std::vector<Evaluated> designs = chosen_designs(loaded, command.designs);

@@ -4,10 +4,11 @@
 
 #include "applications/assembly/assembly_problem.hpp"
 #include "applications/feeder/feeder_problem.hpp"
+#include "applications/nest/nest_problem.hpp"
 #include "cluster/supervised_work.hpp"
 #include "commands.hpp"
 #include "io/problem_file.hpp"
-#include "report/run_files.hpp"
+#include "report/front_files.hpp"
 
 namespace formotion {
 
@@ -15,6 +16,7 @@ namespace {
 
 std::unique_ptr<Problem> problem_of(const ProblemFile& file) {
   if (file.assembly) return std::make_unique<assembly::AssemblyProblem>(*file.assembly);
+  if (file.nest) return std::make_unique<nest::NestProblem>(*file.nest);
   return std::make_unique<feeder::FeederProblem>(file.feeder);
 }
 

@@ -10,7 +10,9 @@
 #include "applications/feeder/inverse_goals.hpp"
 #include "io/json_document.hpp"
 #include "io/problem_reader.hpp"
+#include "io/read_asked.hpp"
 #include "io/read_assembly.hpp"
+#include "io/read_nest.hpp"
 #include "io/suggestion.hpp"
 
 namespace formotion {
@@ -73,8 +75,10 @@ std::vector<Variable> read_variables(const Json* value, IssueList& issues) {
   return variables;
 }
 
-std::vector<Objective> read_objectives(const Json* value, std::span<const Objective> known, IssueList& issues) {
-  if (!value) return {known.begin(), known.begin() + 3};
+// usual: how many of the known ones, from the first on, are searched for unless the problem says otherwise.
+std::vector<Objective> read_objectives(const Json* value, std::span<const Objective> known, int usual,
+                                       IssueList& issues) {
+  if (!value) return {known.begin(), known.begin() + usual};
   std::vector<std::string> names;
   for (const Objective& objective : known) names.push_back(objective.name);
   std::vector<Objective> objectives;
@@ -113,19 +117,19 @@ std::optional<std::int64_t> whole_number(ObjectReader& object, const std::string
   return static_cast<std::int64_t>(*number);
 }
 
-// Objectives and robustness into a specification of either kind.
+// Objectives and robustness into a specification of any kind.
 template <class Spec>
-void read_search(const Json* value, std::span<const Objective> known, ProblemFile& file, Spec& spec,
+void read_search(const Json* value, std::span<const Objective> known, int usual, ProblemFile& file, Spec& spec,
                  IssueList& issues) {
   if (!value) {
-    spec.objectives = read_objectives(nullptr, known, issues);
+    spec.objectives = read_objectives(nullptr, known, usual, issues);
     return;
   }
   ObjectReader object(*value, "/search", issues);
   file.search.evaluations =
       whole_number(object, "evaluations", 1, kMostEvaluations, issues).value_or(file.search.evaluations);
   file.search.seed = static_cast<std::uint64_t>(whole_number(object, "seed", 0, kLargestSeed, issues).value_or(1));
-  spec.objectives = read_objectives(object.find("objectives"), known, issues);
+  spec.objectives = read_objectives(object.find("objectives"), known, usual, issues);
   spec.robust = object.boolean_or("robust", false);
   if (spec.robust && !spec.uncertainty.any())
     issues.add("/search/robust", "true", "something under uncertainty to be robust against");
@@ -173,15 +177,17 @@ void read_designs(ObjectReader& object, ProblemFile& file, ReadContext& context)
   read_topologies(topologies, context, add);
 }
 
-void read_fixed_designs(ObjectReader& object, assembly::AssemblySpec& spec, ReadContext& context) {
+// Designs that are shapes; read(value, pointer) gives one.
+template <class Spec, class Read>
+void read_shape_designs(ObjectReader& object, Spec& spec, ReadContext& context, const Read& read) {
   const Json* design = object.find("design");
   const Json* topologies = object.find("topologies");
   if (object.find("grammar"))
-    context.issues.add("/grammar", "a grammar", "design or topologies: there is no grammar of an assembly's shapes");
+    context.issues.add("/grammar", "a grammar", "design or topologies: grammars are of tracks");
   else if ((design != nullptr) == (topologies != nullptr))
     context.issues.add("", design ? "both design and topologies" : "no design", "exactly one of design and topologies");
   const auto add = [&](const Json& value, const std::string& pointer, const Json&) {
-    spec.designs.push_back(read_fixed_shapes(value, pointer, {}, context));
+    spec.designs.push_back(read(value, pointer, std::vector<std::string>{}, context));
   };
   if (design) add(*design, "/design", context.canonical["design"]);
   read_topologies(topologies, context, add);
@@ -223,17 +229,17 @@ void check_variables_used(const Json& document, const std::vector<const char*>& 
 }
 
 void read_kind(ObjectReader& object, ProblemFile& file, IssueList& issues) {
-  object.require("kind", "feeder or assembly");
+  const std::vector<std::string> known{"feeder", "assembly", "fixture", "pallet"};
+  object.require("kind", "one of " + list(known));
   const auto kind = object.string("kind");
-  file.kind = kind == "assembly" ? "assembly" : "feeder";
-  if (!kind || *kind == file.kind) return;
-  if (*kind == "fixture" || *kind == "pallet") {
-    issues.add("/kind", "'" + *kind + "', which this version does not know yet", "feeder or assembly");
-  } else {
-    issues.add("/kind",
-               "the unknown kind '" + *kind + "'" + did_you_mean(*kind, {"feeder", "assembly", "fixture", "pallet"}),
-               "feeder or assembly");
-  }
+  const bool is_known = kind && std::find(known.begin(), known.end(), *kind) != known.end();
+  file.kind = is_known ? *kind : "feeder";
+  if (kind && !is_known)
+    issues.add("/kind", "the unknown kind '" + *kind + "'" + did_you_mean(*kind, known), "one of " + list(known));
+  if (file.kind == "assembly") file.assembly.emplace();
+  if (file.kind != "fixture" && file.kind != "pallet") return;
+  file.nest.emplace();
+  file.nest->purpose = file.kind == "pallet" ? nest::Purpose::Pallet : nest::Purpose::Fixture;
 }
 
 void read_feeder(ObjectReader& object, const Json& document, ProblemFile& file, ReadContext& context) {
@@ -260,7 +266,7 @@ void read_feeder(ObjectReader& object, const Json& document, ProblemFile& file, 
   }
   file.feeder.manufacture = read_manufacture(object.find("manufacture"), context);
   file.feeder.uncertainty = read_uncertainty(object.find("uncertainty"), context);
-  read_search(object.find("search"), feeder::known_objectives(), file, file.feeder, issues);
+  read_search(object.find("search"), feeder::known_objectives(), 3, file, file.feeder, issues);
   object.finish();
   std::vector<std::string> of_grammar;
   if (file.feeder.grammar) of_grammar = feeder::variable_names(*file.feeder.grammar);
@@ -279,13 +285,32 @@ void read_assembly(ObjectReader& object, const Json& document, ProblemFile& file
   assembly::AssemblySpec& spec = *file.assembly;
   if (const Json* part = object.require("part", "a part")) spec.part = read_assembly_part(*part, context);
   read_assembly_environment(object.find("environment"), spec, context);
-  read_fixed_designs(object, spec, context);
+  read_shape_designs(object, spec, context, read_fixed_shapes);
   if (const Json* goal = object.require("goal", "a goal: {\"depth_mm\", \"lateral_mm\", \"tilt_deg\", ...}"))
     read_assembly_goal(*goal, spec, context);
   read_assembly_uncertainty(object.find("uncertainty"), spec, context);
-  read_search(object.find("search"), assembly::known_objectives(), file, spec, issues);
+  read_search(object.find("search"), assembly::known_objectives(), 3, file, spec, issues);
   object.finish();
   check_variables_used(document, {"part", "environment", "design", "topologies"}, spec.variables, {}, issues);
+  issues.throw_if_any();
+}
+
+void read_nest(ObjectReader& object, const Json& document, ProblemFile& file, ReadContext& context) {
+  IssueList& issues = context.issues;
+  nest::NestSpec& spec = *file.nest;
+  if (const Json* part = object.require("part", "a part")) {
+    spec.part = read_part(*part, context, false);
+    if (std::any_of(spec.part.aspects.begin(), spec.part.aspects.end(),
+                    [](const AspectSpec& aspect) { return !aspect.layers.empty(); }))
+      issues.add("/part", "layers", "outlines alone: a nest is planar");
+  }
+  read_nest_environment(object.find("environment"), spec, context);
+  read_shape_designs(object, spec, context, read_nest_shapes);
+  if (const Json* goal = object.require("goal", "a goal: {\"seat\": {...}, ...}")) read_nest_goal(*goal, spec, context);
+  read_nest_uncertainty(object.find("uncertainty"), spec, context);
+  read_search(object.find("search"), nest::known_objectives(spec.purpose), 2, file, spec, issues);
+  object.finish();
+  check_variables_used(document, {"part", "environment", "design", "topologies", "goal"}, spec.variables, {}, issues);
   issues.throw_if_any();
 }
 
@@ -312,13 +337,16 @@ ProblemFile parse_problem(const std::string& text, const std::string& path) {
   read_kind(object, file, issues);
   object.ignore({"run"});  // of problem.json in a run's folder: how it was run
 
-  if (file.kind == "assembly") file.assembly.emplace();
-  (file.assembly ? file.assembly->variables : file.feeder.variables) = read_variables(object.find("variables"), issues);
+  (file.assembly ? file.assembly->variables
+   : file.nest   ? file.nest->variables
+                 : file.feeder.variables) = read_variables(object.find("variables"), issues);
   ReadContext context{issues, std::filesystem::path(path).parent_path().string(), {}, canonical};
   for (const Variable& variable : variables_of(file)) context.names.push_back(variable.name);
 
   if (file.assembly) {
     read_assembly(object, document, file, context);
+  } else if (file.nest) {
+    read_nest(object, document, file, context);
   } else {
     read_feeder(object, document, file, context);
   }
@@ -327,11 +355,18 @@ ProblemFile parse_problem(const std::string& text, const std::string& path) {
 }
 
 std::span<const Variable> variables_of(const ProblemFile& file) {
-  return file.assembly ? file.assembly->variables : file.feeder.variables;
+  return file.assembly ? file.assembly->variables : file.nest ? file.nest->variables : file.feeder.variables;
 }
 
 std::size_t topologies_in(const ProblemFile& file) {
-  return file.assembly ? file.assembly->designs.size() : file.feeder.designs.size();
+  return file.assembly ? file.assembly->designs.size()
+         : file.nest   ? file.nest->designs.size()
+                       : file.feeder.designs.size();
+}
+
+std::size_t aspects_in(const ProblemFile& file) {
+  if (file.assembly) return file.assembly->part.flips ? 2 : 1;
+  return (file.nest ? file.nest->part : file.feeder.part).aspects.size();
 }
 
 ProblemFile read_problem_file(const std::string& path) { return parse_problem(read_text_file(path), path); }
@@ -348,6 +383,8 @@ void apply_design_file(ProblemFile& problem, const std::string& path,
                                         "provenance", "feasible", "violations", "label"};
   if (problem.assembly) {
     problem.assembly->designs = {read_fixed_shapes(document, "", beside, context)};
+  } else if (problem.nest) {
+    problem.nest->designs = {read_nest_shapes(document, "", beside, context)};
   } else {
     problem.feeder.designs = {read_design(document, "", beside, context, canonical)};
   }

@@ -10,6 +10,7 @@
 
 #include "applications/assembly/spec.hpp"
 #include "applications/feeder/spec.hpp"
+#include "applications/nest/spec.hpp"
 #include "io/input_error.hpp"
 
 namespace formotion {
@@ -23,9 +24,11 @@ struct ProblemFile {
   std::string path;  // as given
   std::string name;
   std::string slug;  // name made fit for a folder: "el bracket" -> "el_bracket"
-  std::string kind;  // feeder or assembly
+  std::string kind;  // feeder, assembly, fixture or pallet
   feeder::FeederSpec feeder;
-  std::optional<assembly::AssemblySpec> assembly;  // then feeder says nothing
+  // Of the other kinds; feeder then says nothing.
+  std::optional<assembly::AssemblySpec> assembly;
+  std::optional<nest::NestSpec> nest;
   SearchSpec search;
   std::string canonical;  // the problem as run: canonical JSON text, files it refers to written into it as outlines
 };
@@ -33,6 +36,7 @@ struct ProblemFile {
 // Whatever the kind.
 std::span<const Variable> variables_of(const ProblemFile& file);
 std::size_t topologies_in(const ProblemFile& file);
+std::size_t aspects_in(const ProblemFile& file);
 
 // The run's folder unless the user names one: results/SLUG.
 inline std::string default_folder(const ProblemFile& file) { return "results/" + file.slug; }
@@ -42,8 +46,9 @@ ProblemFile read_problem_file(const std::string& path);
 // The same from text (path is for messages and relative files): what fuzzing feeds.
 ProblemFile parse_problem(const std::string& text, const std::string& path);
 
-// A design file ({"features": [...]}, {"fixed_mm": [...]} for assemblies: an entry of pareto.json or designs/ID.json is
-// one) replaces the problem's topologies by this one; its optional "values" are variables' values.
+// A design file ({"features": [...]}, {"fixed_mm": [...]} for assemblies, {"nest_mm": [...]} for nests: an entry of
+// pareto.json or designs/ID.json is one) replaces the problem's topologies by this one; its optional "values" are
+// variables' values.
 void apply_design_file(ProblemFile& problem, const std::string& path,
                        std::vector<std::pair<std::string, double>>& values);
 

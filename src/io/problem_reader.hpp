@@ -14,7 +14,7 @@ struct ReadContext {
   nlohmann::ordered_json& canonical;  // the document, with files replaced by what they hold
 };
 
-feeder::PartSpec read_part(const nlohmann::ordered_json& value, ReadContext& context);
+feeder::PartSpec read_part(const nlohmann::ordered_json& value, ReadContext& context, bool thickness_required = true);
 // Outline, holes and centre of mass of a part that lists no aspects, or its drawing; up.height_mm is read before.
 void read_outlines(ObjectReader& object, const nlohmann::ordered_json& part, feeder::AspectSpec& up,
                    ReadContext& context);

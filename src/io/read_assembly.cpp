@@ -4,70 +4,27 @@
 #include <cmath>
 #include <numbers>
 
+#include "io/read_asked.hpp"
 #include "io/suggestion.hpp"
 
 namespace formotion {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr Range kFriction{0, 10, false};
-constexpr Range kTurn{-3600, 3600, false};
 constexpr Range kTilt{0, 180, false};
 
 const std::vector<std::string> kMetrics{"success_fraction", "capture_mm",      "capture_deg", "peak_force_n",
                                         "work_nmm",         "depth_margin_mm", "chamfer_mm",  "peak_lateral_force_n"};
 
-double radians(double degrees) { return degrees * std::numbers::pi / 180; }
-
-std::string list(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
-std::optional<std::pair<double, double>> read_interval(const Json& value, const std::string& pointer,
-                                                       const Range& range, IssueList& issues) {
-  if (!value.is_array() || value.size() != 2) {
-    issues.add(pointer, described(value), "an interval [min, max]");
-    return std::nullopt;
-  }
-  const auto low = read_number(value[0], pointer + "/0", range, issues);
-  const auto high = read_number(value[1], pointer + "/1", range, issues);
-  if (!low || !high) return std::nullopt;
-  if (*low > *high) {
-    issues.add(pointer, value.dump(), "an interval [min, max] with min not above max");
-    return std::nullopt;
-  }
-  return std::pair(*low, *high);
-}
-
-// A number, an expression or an interval; the interval's middle is the value.
-Number read_uncertain(const Json& value, const std::string& pointer, const Range& range,
-                                ReadContext& context) {
-  if (value.is_array()) {
-    const auto interval = read_interval(value, pointer, range, context.issues);
-    return interval ? Number{{(interval->first + interval->second) / 2, {}}, interval} : Number{};
-  }
-  if (value.is_number()) return {{read_number(value, pointer, range, context.issues).value_or(0), {}}, std::nullopt};
-  return {read_expression(value, pointer, context.names, context.issues).value_or(Affine{}), std::nullopt};
-}
-
-Number required_uncertain(ObjectReader& object, const std::string& key, const Range& range,
-                                    assembly::AssemblySpec& spec, ReadContext& context) {
-  const Json* value = object.require(key, "a number, an expression or an interval [min, max]");
-  if (!value) return {};
-  const Number number = read_uncertain(*value, object.at(key), range, context);
-  if (number.interval) spec.uncertainty.intervals[key] = *number.interval;
-  return number;
-}
-
 void read_support(const Json& value, const std::string& pointer, assembly::AssemblySpec& spec, ReadContext& context) {
   assembly::SupportSpec& support = spec.support;
   ObjectReader object(value, pointer, context.issues);
-  support.kx = required_uncertain(object, support.damper ? "bx_ns_per_mm" : "kx_n_per_mm", kPositive, spec, context);
-  support.ky = required_uncertain(object, support.damper ? "by_ns_per_mm" : "ky_n_per_mm", kPositive, spec, context);
+  support.kx =
+      required_uncertain(object, support.damper ? "bx_ns_per_mm" : "kx_n_per_mm", kPositive, spec.uncertainty, context);
+  support.ky =
+      required_uncertain(object, support.damper ? "by_ns_per_mm" : "ky_n_per_mm", kPositive, spec.uncertainty, context);
   support.ktheta = required_uncertain(object, support.damper ? "btheta_nmms_per_rad" : "ktheta_nmm_per_rad", kPositive,
-                                      spec, context);
+                                      spec.uncertainty, context);
   if (const Json* centre = object.find("center_mm")) {
     const std::string at = object.at("center_mm");
     if (centre->is_array() && centre->size() == 2) {
@@ -94,28 +51,6 @@ void read_approach(const Json& value, assembly::AssemblySpec& spec, ReadContext&
   object.finish();
 }
 
-Interval read_error(ObjectReader& object, const std::string& key, const Range& range, IssueList& issues) {
-  const Json* value = object.find(key);
-  if (!value) return {};
-  if (value->is_array()) {
-    const auto interval = read_interval(*value, object.at(key), range, issues);
-    return interval ? Interval{interval->first, interval->second} : Interval{};
-  }
-  const double number = read_number(*value, object.at(key), range, issues).value_or(0);
-  return {number, number};
-}
-
-StartsSpec read_starts(const Json& value, const std::string& pointer, IssueList& issues) {
-  StartsSpec starts;
-  ObjectReader object(value, pointer, issues);
-  starts.x_mm = read_error(object, "x_mm", kAny, issues);
-  starts.y_mm = read_error(object, "y_mm", kAny, issues);
-  const Interval degrees = read_error(object, "theta_deg", kTurn, issues);
-  starts.theta_rad = {radians(degrees.min), radians(degrees.max)};
-  object.finish();
-  return starts;
-}
-
 assembly::NeverSpec read_never(const Json& value, const std::string& pointer, bool flips, ReadContext& context) {
   assembly::NeverSpec never;
   ObjectReader object(value, pointer, context.issues);
@@ -130,28 +65,11 @@ assembly::NeverSpec read_never(const Json& value, const std::string& pointer, bo
                        "the unknown aspect '" + never.aspect + "'" + did_you_mean(never.aspect, known),
                        "one of " + list(known));
   }
-  never.orientation_rad = radians(object.required_number("orientation_deg", kTurn));
+  never.orientation_rad = radians(object.required_number("orientation_deg", kTurn_deg));
   if (const Json* starts = object.find("starts"))
     never.starts = read_starts(*starts, object.at("starts"), context.issues);
   object.finish();
   return never;
-}
-
-void read_bounds(const Json& value, std::vector<Bound>& bounds, IssueList& issues) {
-  ObjectReader object(value, "/goal/require", issues);
-  for (const std::string& metric : kMetrics) {
-    const Json* given = object.find(metric);
-    if (!given) continue;
-    ObjectReader limits(*given, object.at(metric), issues);
-    const Bound bound{metric, limits.number("min", kAny), limits.number("max", kAny)};
-    limits.finish();
-    if (limits.valid() && !bound.min && !bound.max)
-      issues.add(object.at(metric), "neither min nor max", "at least one of them");
-    if (bound.min && bound.max && *bound.min > *bound.max)
-      issues.add(object.at(metric), given->dump(), "min not above max");
-    bounds.push_back(bound);
-  }
-  object.finish();
 }
 
 }  // namespace
@@ -169,13 +87,14 @@ assembly::PartSpec read_assembly_part(const Json& value, ReadContext& context) {
 }
 
 void read_assembly_environment(const Json* value, assembly::AssemblySpec& spec, ReadContext& context) {
-  spec.friction.value.constant = 0.2;
+  const Number usual{{0.2, {}}, {}};
+  spec.friction = usual;
   if (!value) {
     context.issues.add("/environment", "nothing", "an object with compliance or damper, and approach");
     return;
   }
   ObjectReader object(*value, "/environment", context.issues);
-  if (object.find("friction")) spec.friction = required_uncertain(object, "friction", kFriction, spec, context);
+  spec.friction = read_uncertain(object, "friction", kFriction, usual, spec.uncertainty, context);
   const Json* spring = object.find("compliance");
   const Json* damper = object.find("damper");
   if (object.valid() && (spring != nullptr) == (damper != nullptr)) {
@@ -209,53 +128,29 @@ void read_assembly_goal(const Json& value, assembly::AssemblySpec& spec, ReadCon
       goal.never.push_back(
           read_never((*never)[i], object.at("never") + "/" + std::to_string(i), spec.part.flips, context));
   }
-  if (const Json* bounds = object.find("require")) read_bounds(*bounds, spec.bounds, context.issues);
+  if (const Json* bounds = object.find("require")) spec.bounds = read_bounds(*bounds, kMetrics, context.issues);
   object.finish();
 }
 
 void read_assembly_uncertainty(const Json* value, assembly::AssemblySpec& spec, ReadContext& context) {
   if (!value) return;
-  ShapeUncertainty& uncertainty = spec.uncertainty;
-  ObjectReader object(*value, "/uncertainty", context.issues);
-  uncertainty.outline_mm = object.number_or("outline_mm", kNotNegative, 0);
-  uncertainty.feature_mm = object.number_or("feature_mm", kNotNegative, 0);
-  uncertainty.centre_mm = object.number_or("center_mm", kNotNegative, 0);
-  std::vector<std::string> keys{"friction"};
+  std::vector<std::pair<std::string, Range>> keys{{"friction", kFriction}};
   for (const char* key : {"kx_n_per_mm", "ky_n_per_mm", "ktheta_nmm_per_rad"})
-    if (!spec.support.damper) keys.push_back(key);
+    if (!spec.support.damper) keys.emplace_back(key, kPositive);
   for (const char* key : {"bx_ns_per_mm", "by_ns_per_mm", "btheta_nmms_per_rad"})
-    if (spec.support.damper) keys.push_back(key);
-  for (const std::string& key : keys) {
-    const Json* given = object.find(key);
-    if (!given) continue;
-    if (uncertainty.intervals.count(key))
-      context.issues.add(object.at(key), "an interval that the environment gives, too", "one of them");
-    const auto interval =
-        read_interval(*given, object.at(key), key == "friction" ? kFriction : kPositive, context.issues);
-    if (interval) uncertainty.intervals[key] = *interval;
-  }
-  object.finish();
+    if (spec.support.damper) keys.emplace_back(key, kPositive);
+  read_shape_uncertainty(*value, "center_mm", keys, spec.uncertainty, context);
 }
 
 assembly::DesignSpec read_fixed_shapes(const Json& value, const std::string& pointer,
                                        const std::vector<std::string>& ignored, ReadContext& context) {
   assembly::DesignSpec design;
   ObjectReader object(value, pointer, context.issues);
-  const Json* shapes = object.require("fixed_mm", "an array of polygons");
+  design.fixed_mm = read_shapes(object, "fixed_mm", context);
   if (const Json* chamfer = object.find("chamfer_mm"))
     design.chamfer_mm = read_expression(*chamfer, object.at("chamfer_mm"), context.names, context.issues);
   object.ignore(ignored);
   object.finish();
-  if (!shapes) return design;
-  const std::string at = object.at("fixed_mm");
-  if (shapes->is_array() && shapes->empty()) context.issues.add(at, described(*shapes), "at least one polygon");
-  design.fixed_mm = read_loops(shapes, at, context);
-  for (std::size_t i = 0; i < design.fixed_mm.size(); ++i) {
-    const AffineLoop& shape = design.fixed_mm[i];
-    if (shape.empty() || !is_literal(shape)) continue;
-    if (const auto found = defect(normalised({constant_loop(shape), {}})))
-      context.issues.add(at + "/" + std::to_string(i), *found, "a simple polygon with area");
-  }
   return design;
 }
 

@@ -183,7 +183,7 @@ void read_outlines(ObjectReader& object, const Json& part, feeder::AspectSpec& u
   read_shape(object, up, outline_required, context);
 }
 
-feeder::PartSpec read_part(const Json& value, ReadContext& context) {
+feeder::PartSpec read_part(const Json& value, ReadContext& context, bool thickness_required) {
   feeder::PartSpec part;
   ObjectReader object(value, "/part", context.issues);
   if (const Json* aspects = object.find("aspects")) {
@@ -193,7 +193,8 @@ feeder::PartSpec read_part(const Json& value, ReadContext& context) {
   }
   feeder::AspectSpec up;
   up.name = "up";
-  up.height_mm = object.required_number("thickness_mm", kPositive, "the part's thickness");
+  up.height_mm = thickness_required ? object.required_number("thickness_mm", kPositive, "the part's thickness")
+                                    : object.number_or("thickness_mm", kPositive, 0);
   read_outlines(object, value, up, context);
   const bool flips = object.boolean_or("flips", false);
   object.finish();

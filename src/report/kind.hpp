@@ -35,8 +35,11 @@ class Kind {
 
 std::unique_ptr<Kind> feeder_kind(ProblemFile file);
 std::unique_ptr<Kind> assembly_kind(ProblemFile file);
+std::unique_ptr<Kind> nest_kind(ProblemFile file);
 inline std::unique_ptr<Kind> kind_of(ProblemFile file) {
-  return file.assembly ? assembly_kind(std::move(file)) : feeder_kind(std::move(file));
+  return file.assembly ? assembly_kind(std::move(file))
+         : file.nest   ? nest_kind(std::move(file))
+                       : feeder_kind(std::move(file));
 }
 
 }  // namespace formotion

@@ -9,17 +9,13 @@
 #include "optimize/run_store.hpp"
 #include "optimize/run_summary.hpp"
 #include "report/design_files.hpp"
+#include "report/front_files.hpp"
 
 namespace formotion {
 
 // The problem as run: a problem file with the program's version and options beside it.
 std::string problem_json_text(const ProblemFile& file, const RunIdentity& identity);
-std::string pareto_json_text(const ProblemFile& file, const feeder::FeederProblem& problem, const RunSummary& run,
-                             const std::vector<JudgedDesign>& front);
 std::string designs_csv(const feeder::FeederProblem& problem, const std::vector<JudgedDesign>& front);
-
-// Writes a file whole or not at all (a temporary beside it, then a rename). Throws StoreError.
-void write_file(const std::string& path, const std::string& text, const NamedPoint& at_point = {});
 
 // pareto.json, report.html and designs/ID.{json,svg,dxf} of the whole front; designs of earlier ends are removed.
 void write_run_files(const std::string& folder, const ProblemFile& file, const feeder::FeederProblem& problem,

@@ -18,7 +18,7 @@ struct Number {
   std::optional<std::pair<double, double>> interval;
 };
 
-struct Interval {
+struct ErrorInterval {
   double min = 0, max = 0;
   bool is_single() const { return min == max; }
   double middle() const { return (min + max) / 2; }
@@ -26,7 +26,7 @@ struct Interval {
 
 // Errors of a start.
 struct StartsSpec {
-  Interval x_mm, y_mm, theta_rad;
+  ErrorInterval x_mm, y_mm, theta_rad;
 };
 
 // Bounds that feasible designs keep, by metric's name: {"success_fraction": {"min": 1}}.

@@ -35,7 +35,7 @@ StartShares shares_of_starts(const StartsSpec& starts, int wanted,
   return shares;
 }
 
-std::vector<double> values_of(const Interval& interval, int count) {
+std::vector<double> values_of(const ErrorInterval& interval, int count) {
   if (interval.is_single() || count < 2) return {interval.middle()};
   std::vector<double> values;
   for (int i = 0; i < count; ++i) values.push_back(interval.min + i * (interval.max - interval.min) / (count - 1));

@@ -24,6 +24,6 @@ StartShares shares_of_starts(const StartsSpec& starts, int wanted,
                              const RegionOptions& options);
 
 // count values of an interval from end to end; its middle for a single value or a count below 2.
-std::vector<double> values_of(const Interval& interval, int count);
+std::vector<double> values_of(const ErrorInterval& interval, int count);
 
 }  // namespace formotion
