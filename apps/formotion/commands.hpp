@@ -54,7 +54,7 @@ int run_status(const std::string& folder, const std::string& format);
 int run_report(const std::string& folder, const std::string& format, const std::string& compare);
 int run_export(const std::string& folder, const std::string& design, const std::string& format);
 int run_verify(const std::string& folder, const VerifyCommand& command);
-int run_evaluate(const DesignChoice& choice, const std::string& format);  // json, svg or dxf
+int run_evaluate(const DesignChoice& choice, const std::string& format);  // json, svg, dxf or stl
 int run_query(const DesignChoice& choice);
 // folder_only: prints nothing but the folder that optimize would use.
 int run_validate(const std::string& problem, bool folder_only);

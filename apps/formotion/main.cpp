@@ -125,7 +125,8 @@ int main(int argc, char** argv) {
   CLI::App* export_ = app.add_subcommand("export", "print one design of a run as a file");
   export_->add_option("folder", folder, "the run's folder")->required();
   export_->add_option("--design", design_id, "the design's id")->required();
-  export_->add_option("--format", export_format, "json, svg or dxf")->check(CLI::IsMember({"json", "svg", "dxf"}));
+  export_->add_option("--format", export_format, "json, svg, dxf or stl")
+      ->check(CLI::IsMember({"json", "svg", "dxf", "stl"}));
   export_->callback([&] { command = [&] { return run_export(folder, design_id, export_format); }; });
 
   CLI::App* verify =
@@ -143,8 +144,8 @@ int main(int argc, char** argv) {
 
   CLI::App* evaluate = app.add_subcommand("evaluate", "score one design: JSON on stdout");
   add_design_options(*evaluate, choice);
-  evaluate->add_option("--format", evaluate_format, "json, or the drawing: svg or dxf")
-      ->check(CLI::IsMember({"json", "svg", "dxf"}));
+  evaluate->add_option("--format", evaluate_format, "json, or the drawing: svg, dxf or stl")
+      ->check(CLI::IsMember({"json", "svg", "dxf", "stl"}));
   evaluate->callback([&] { command = [&] { return run_evaluate(choice, evaluate_format); }; });
 
   CLI::App* query = app.add_subcommand("query", "answer questions about configurations: JSON lines in, JSON lines out");

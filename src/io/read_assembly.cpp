@@ -77,13 +77,14 @@ assembly::NeverSpec read_never(const Json& value, const std::string& pointer, bo
 assembly::PartSpec read_assembly_part(const Json& value, ReadContext& context) {
   ObjectReader object(value, "/part", context.issues);
   feeder::AspectSpec drawn;
-  drawn.height_mm = object.number_or("thickness_mm", kPositive, 0);
+  const std::optional<double> thickness = object.number("thickness_mm", kPositive);
+  drawn.height_mm = thickness.value_or(0);
   if (value.is_object() && value.contains("layers"))
     context.issues.add("/part/layers", "layers", "one outline: an assembly is planar");
   read_outlines(object, value, drawn, context);
   const bool flips = object.boolean_or("flips", false);
   object.finish();
-  return {drawn.outline_mm, drawn.holes_mm, flips};
+  return {drawn.outline_mm, drawn.holes_mm, flips, thickness};
 }
 
 void read_assembly_environment(const Json* value, assembly::AssemblySpec& spec, ReadContext& context) {

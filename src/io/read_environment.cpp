@@ -86,6 +86,7 @@ feeder::Manufacture read_manufacture(const Json* value, ReadContext& context) {
   ObjectReader object(*value, "/manufacture", context.issues);
   manufacture.cutter_radius_mm = object.number("cutter_radius_mm", kNotNegative);
   manufacture.min_web_mm = object.number("min_web_mm", kNotNegative);
+  manufacture.plate_mm = object.number("plate_mm", kPositive);
   object.finish();
   return manufacture;
 }

@@ -28,7 +28,8 @@ class AssemblyKind final : public ShapesKind<assembly::AssemblyProblem> {
           << " % assemble, with " << evaluation.metrics.peak_force_n << " N at most";
     drawing.notes.push_back(share.str());
     if (!evaluation.feasible) drawing.notes.push_back("NOT FEASIBLE: " + evaluation.violations.front().what);
-    return format == "svg" ? joint_svg(drawing) : joint_dxf(drawing);
+    if (spec.part.thickness_mm) drawing.thickness_mm = *spec.part.thickness_mm;
+    return (format == "svg" ? joint_svg : format == "dxf" ? joint_dxf : joint_stl)(drawing);
   }
 
   void add_asked(Json& asked, std::span<const double> values) const override {

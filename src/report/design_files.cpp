@@ -1,5 +1,6 @@
 #include "report/design_files.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <numbers>
@@ -21,6 +22,10 @@ TrackDrawing drawing_of(const std::string& name, const feeder::FeederProblem& pr
   TrackDrawing drawing;
   drawing.title = name + (judged.design.number > 0 ? ", design " + design_id(judged.design) : "");
   drawing.track_width_mm = problem.spec().environment.track_width_mm;
+  drawing.plate_mm = problem.spec().manufacture.plate_mm.value_or(drawing.plate_mm);
+  drawing.obstacle_height_mm = 0;
+  for (const feeder::AspectSpec& aspect : problem.spec().part.aspects)
+    drawing.obstacle_height_mm = std::max(drawing.obstacle_height_mm, aspect.height_mm);
   drawing.features = problem.place(judged.design.candidate.topology, judged.values);
   if (evaluation.goal_pose >= 0) {
     const feeder::PoseResult& goal = evaluation.poses[static_cast<std::size_t>(evaluation.goal_pose)];
@@ -68,6 +73,10 @@ std::string design_svg(const std::string& name, const feeder::FeederProblem& pro
 
 std::string design_dxf(const std::string& name, const feeder::FeederProblem& problem, const JudgedDesign& judged) {
   return track_dxf(drawing_of(name, problem, judged));
+}
+
+std::string design_stl(const std::string& name, const feeder::FeederProblem& problem, const JudgedDesign& judged) {
+  return track_stl(drawing_of(name, problem, judged));
 }
 
 }  // namespace formotion

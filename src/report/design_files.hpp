@@ -25,5 +25,6 @@ OrderedJson design_json(const feeder::FeederProblem& problem, const JudgedDesign
 // name: the problem's.
 std::string design_svg(const std::string& name, const feeder::FeederProblem& problem, const JudgedDesign& judged);
 std::string design_dxf(const std::string& name, const feeder::FeederProblem& problem, const JudgedDesign& judged);
+std::string design_stl(const std::string& name, const feeder::FeederProblem& problem, const JudgedDesign& judged);
 
 }  // namespace formotion

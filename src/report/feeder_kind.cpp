@@ -31,14 +31,12 @@ class FeederKind final : public Kind {
   std::string drawing(int topology, std::span<const double> values, const std::string& format) const override {
     JudgedDesign judged{{}, {values.begin(), values.end()}, problem_.evaluate(topology, values)};
     judged.design.candidate.topology = topology;
-    return (format == "svg" ? design_svg : design_dxf)(file_.name, problem_, judged);
+    return drawn(judged, format);
   }
 
   std::string design_file(const Evaluated& design, const std::string& format) const override {
     const JudgedDesign chosen = judged(problem_, design);
-    if (format == "svg") return design_svg(file_.name, problem_, chosen);
-    if (format == "dxf") return design_dxf(file_.name, problem_, chosen);
-    return design_json(problem_, chosen).dump(1) + "\n";
+    return format == "json" ? design_json(problem_, chosen).dump(1) + "\n" : drawn(chosen, format);
   }
   std::string front_csv(const RunSummary& run) const override {
     return designs_csv(problem_, judged(problem_, run.front));
@@ -51,6 +49,11 @@ class FeederKind final : public Kind {
   }
 
  private:
+  std::string drawn(const JudgedDesign& judged, const std::string& format) const {
+    const auto draw = format == "svg" ? design_svg : format == "dxf" ? design_dxf : design_stl;
+    return draw(file_.name, problem_, judged);
+  }
+
   ProblemFile file_;
   feeder::FeederProblem problem_;
 };

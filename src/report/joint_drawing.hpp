@@ -1,4 +1,4 @@
-// Drawings of an assembly's joint that can be cut from: SVG with dimensions, DXF with the contours.
+// Drawings of an assembly's joint that can be cut from: SVG with dimensions, DXF with the contours; STL to be printed.
 #pragma once
 
 #include <string>
@@ -16,6 +16,7 @@ struct JointDrawing {
   double approach_rad = -1.5707963267948966;
   double depth_mm = 0;             // the goal's
   std::vector<std::string> notes;  // lines of the title block: goal, start errors, friction, ...
+  double thickness_mm = 10;        // of the fixed shapes
 };
 
 // The approach points down on paper. Enlarged or reduced by the scale that the title block names; its bar is 50 mm on
@@ -25,5 +26,7 @@ std::string joint_svg(const JointDrawing& drawing);
 // Layers: FIXED and PART (closed contours), GOAL (the part at the goal's depth), DATUM (the approach through the
 // compliance centre), CENTER (the compliance centre's cross), NOTE (texts). Lengths in mm, the file's coordinates.
 std::string joint_dxf(const JointDrawing& drawing);
+// The fixed shapes from z = 0 on; those that touch are one.
+std::string joint_stl(const JointDrawing& drawing);
 
 }  // namespace formotion

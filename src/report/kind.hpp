@@ -22,11 +22,11 @@ class Kind {
   // Below, values are of all the problem's variables, in order. A design's shapes with literal numbers (`features`,
   // `fixed_mm`) and its `values`: keys of a design file.
   virtual nlohmann::ordered_json design_keys(int topology, std::span<const double> values) const = 0;
-  // The answer of `evaluate`; as a drawing: format svg or dxf.
+  // The answer of `evaluate`; as a drawing: format svg, dxf or stl.
   virtual nlohmann::ordered_json evaluation(int topology, std::span<const double> values) const = 0;
   virtual std::string drawing(int topology, std::span<const double> values, const std::string& format) const = 0;
 
-  // One design of a run; format: json, svg or dxf.
+  // One design of a run; format: json, svg, dxf or stl.
   virtual std::string design_file(const Evaluated& design, const std::string& format) const = 0;
   virtual std::string front_csv(const RunSummary& run) const = 0;
   virtual nlohmann::ordered_json report(const RunSummary& run, const ComparedRun* other) const = 0;

@@ -17,7 +17,7 @@ namespace formotion {
 std::string problem_json_text(const ProblemFile& file, const RunIdentity& identity);
 std::string designs_csv(const feeder::FeederProblem& problem, const std::vector<JudgedDesign>& front);
 
-// pareto.json, report.html and designs/ID.{json,svg,dxf} of the whole front; designs of earlier ends are removed.
+// pareto.json, report.html and designs/ID.{json,svg,dxf,stl} of the whole front; designs of earlier ends are removed.
 void write_run_files(const std::string& folder, const ProblemFile& file, const feeder::FeederProblem& problem,
                      const RunSummary& run, const NamedPoint& at_point = {});
 

@@ -85,7 +85,7 @@ TEST_CASE("runs of assemblies give the same bytes on every number of threads and
   CHECK(again["metrics"] == design["metrics"]);
   CHECK(again["fixed_mm"] == design["fixed_mm"]);
   const std::string id = design["id"];
-  for (const std::string format : {"json", "svg", "dxf"}) {
+  for (const std::string format : {"json", "svg", "dxf", "stl"}) {
     CHECK(run({"export", folder / "one", "--design", id, "--format", format}).out ==
           read_file(folder / "one/designs/" + id + "." + format));
   }

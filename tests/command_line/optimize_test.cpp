@@ -47,7 +47,7 @@ TEST_CASE("a run ends with all its files, and its designs say the same everywher
     CHECK(evaluated["feasible"] == true);
     CHECK(evaluated["metrics"] == design["metrics"]);
     CHECK(Json::parse(read_file(out + "/designs/" + id + ".json")) == design);
-    for (const std::string format : {"json", "svg", "dxf"}) {
+    for (const std::string format : {"json", "svg", "dxf", "stl"}) {
       CHECK(run({"export", out, "--design", id, "--format", format}).out ==
             read_file(out + "/designs/" + id + "." + format));
     }

@@ -18,6 +18,7 @@ struct PartSpec {
   AffineLoop outline_mm;
   std::vector<AffineLoop> holes_mm;
   bool flips = false;
+  std::optional<double> thickness_mm = {};  // of what is printed, too; no motion depends on it
 };
 
 // A spring, or a damper: forces per speed in place of forces per displacement.

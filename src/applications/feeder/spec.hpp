@@ -127,6 +127,7 @@ struct Goal {
 
 struct Manufacture {
   std::optional<double> cutter_radius_mm, min_web_mm;
+  std::optional<double> plate_mm;  // the track's thickness; no motion depends on it
 };
 
 struct Uncertainty {
