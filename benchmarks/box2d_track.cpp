@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
+
+#include "shaking/convex_pieces.hpp"
 
 namespace formotion::bench {
 namespace {
@@ -19,8 +20,7 @@ b2Vec2 units(const Point& p, double unit_mm) {
 }
 
 void add_area(b2Body& body, const Polygon& area, double friction, double unit_mm) {
-  if (!area.holes.empty()) throw std::invalid_argument("holes are not supported here");
-  for (const Loop& piece : convex_pieces(area.outer, b2_maxPolygonVertices)) {
+  for (const Loop& piece : convex_pieces(area, b2_maxPolygonVertices)) {
     b2Vec2 corners[b2_maxPolygonVertices];
     for (std::size_t i = 0; i < piece.size(); ++i) corners[i] = units(piece[i], unit_mm);
     b2PolygonShape shape;
@@ -43,65 +43,7 @@ void add_disc(b2Body& body, const Point& centre, double radius_mm, double fricti
   body.CreateFixture(&fixture);
 }
 
-bool in_triangle(const Point& p, const Point& a, const Point& b, const Point& c) {
-  return cross(b - a, p - a) >= 0 && cross(c - b, p - b) >= 0 && cross(a - c, p - c) >= 0;
-}
-
-bool is_convex(const Loop& loop) {
-  const std::size_t n = loop.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const Point in = loop[(i + 1) % n] - loop[i], out = loop[(i + 2) % n] - loop[(i + 1) % n];
-    if (cross(in, out) < -1e-9 * in.norm() * out.norm()) return false;
-  }
-  return true;
-}
-
-// The union of two counter-clockwise loops that share an edge; empty if they do not.
-Loop joined(const Loop& a, const Loop& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      if (a[i] != b[(j + 1) % b.size()] || a[(i + 1) % a.size()] != b[j]) continue;
-      Loop loop;
-      for (std::size_t k = 0; k < a.size(); ++k) loop.push_back(a[(i + 1 + k) % a.size()]);
-      for (std::size_t k = 2; k < b.size(); ++k) loop.push_back(b[(j + k) % b.size()]);
-      return loop;
-    }
-  }
-  return {};
-}
-
 }  // namespace
-
-std::vector<Loop> convex_pieces(const Loop& loop, int max_corners) {
-  std::vector<Loop> pieces;
-  Loop rest = loop;
-  while (rest.size() > 3) {
-    const std::size_t n = rest.size();
-    std::size_t ear = n;
-    for (std::size_t i = 0; i < n && ear == n; ++i) {
-      const Point &a = rest[(i + n - 1) % n], &b = rest[i], &c = rest[(i + 1) % n];
-      if (cross(b - a, c - b) <= 0) continue;
-      const bool is_empty = std::none_of(rest.begin(), rest.end(), [&](const Point& p) {
-        return p != a && p != b && p != c && in_triangle(p, a, b, c);
-      });
-      if (is_empty) ear = i;
-    }
-    if (ear == n) throw std::invalid_argument("not a simple counter-clockwise polygon");
-    pieces.push_back({rest[(ear + n - 1) % n], rest[ear], rest[(ear + 1) % n]});
-    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(ear));
-  }
-  pieces.push_back(rest);
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    for (std::size_t j = i + 1; j < pieces.size(); ++j) {
-      Loop both = joined(pieces[i], pieces[j]);
-      if (both.empty() || both.size() > static_cast<std::size_t>(max_corners) || !is_convex(both)) continue;
-      pieces[i] = std::move(both);
-      pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(j));
-      j = i;
-    }
-  }
-  return pieces;
-}
 
 Box2dOutcome run_box2d(const Box2dTrack& track, const Configuration& start, const Box2dOptions& options) {
   b2World world(b2Vec2(0, 0));

@@ -36,8 +36,4 @@ struct Box2dOutcome {
 // Stuck: in a window of 100 mm of free travel it came less than 0.05 mm and 0.05 degrees away.
 Box2dOutcome run_box2d(const Box2dTrack& track, const Configuration& start, const Box2dOptions& options = {});
 
-// Convex pieces of at most max_corners corners: ears, then joined over diagonals while convex (Hertel & Mehlhorn 1983).
-// The polygon has no holes.
-std::vector<Loop> convex_pieces(const Loop& loop, int max_corners);
-
 }  // namespace formotion::bench

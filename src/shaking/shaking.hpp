@@ -1,4 +1,7 @@
 // A nest shaken with a part in it, simulated in an independent rigid-body engine (Box2D): whether the part leaves.
+// A witness by samples: nothing is proved, and roundings decide after a few impacts, as dust would. The corners of a
+// side that lands flat meet its floor at once, so symmetric parts may bounce upright for seconds; shake long, and with
+// several seeds.
 #pragma once
 
 #include <cstdint>

@@ -264,20 +264,20 @@ class DesignJudge {
     const TableSpec& table = *spec_.environment.table;
     const VibratingTable shaken{table.amplitude_mm, table.frequency_hz, table.restitution.value(values_)};
     ShakingWindow window;
-    window.throws_mm = greatest_height_mm(shaken);
+    window.throws_mm = greatest_rise_mm(shaken);
     double wrong = 0;
     bool all_known = true;
     std::vector<RestFate> fates;
     for (const NestRest& rest : rests) {
       if (rest.is_seat) {
-        window.keeps_up_to_mm = amplitude_for_mm(rest.escape_low_mm, table.frequency_hz, shaken.restitution);
+        window.keeps_up_to_mm = amplitude_for_rise_mm(rest.escape_low_mm, table.frequency_hz, shaken.restitution);
       } else {
         all_known = all_known && rest.escape_high_mm;
         wrong = std::max(wrong, rest.escape_high_mm.value_or(0));
       }
       fates.push_back({rest.drop_share, rest.is_seat, !rest.is_seat && rest.escape_low_mm < window.throws_mm});
     }
-    if (all_known) window.loses_from_mm = amplitude_for_mm(wrong, table.frequency_hz, shaken.restitution);
+    if (all_known) window.loses_from_mm = amplitude_for_rise_mm(wrong, table.frequency_hz, shaken.restitution);
     window.filling = filling(fates);
     return window;
   }
