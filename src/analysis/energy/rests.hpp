@@ -13,12 +13,14 @@
 
 namespace formotion {
 
-// A connected set of configurations of one height, from which every way leads up; mostly a single point.
+// A connected set of configurations of one height that have nothing lower nearby; mostly a single point. A level set
+// may end where a way leads on down (the verge of a ledge): its interior has nothing lower nearby.
 struct Rest {
   Configuration at;  // theta in [0, 2 pi); of a set, a member in its middle
   double height_mm = 0;
   std::vector<ContactPair> contacts;  // at `at`
-  std::vector<Configuration> set;     // of a set that is more than a point, its ends (or corners); else empty
+  std::vector<Configuration> set;     // of a set that is more than a point, its ends, or its four corners in turn (a
+                                      // part that turns at one height, on a level floor); else empty
   bool holds(const Configuration& q, double reach_mm, double tolerance_mm) const;  // q belongs to it, that nearly
 };
 
