@@ -34,8 +34,8 @@ double least_resisted(std::span<const ContactPoint> contacts, double along_rad, 
 // The same for a moment about the centre of mass (N mm for each N of the applied force), either way: the lesser.
 double resisted_moment_mm(std::span<const ContactPoint> contacts, double along_rad, double friction);
 
-// A connected set of configurations that can be at rest on two or more contacts (a part on one contact alone balances:
-// its height is at a saddle there, derived).
+// A connected set of configurations that can be at rest on two or more contacts (on one contact alone a part
+// balances: its height is at a saddle there, but where a corner hangs on a level edge straight over the mass; derived).
 struct EquilibriumSet {
   std::vector<Configuration> samples;   // along it, ends included
   Verdict verdict = Verdict::Possible;  // the strongest of its members
@@ -48,6 +48,8 @@ struct EquilibriaOptions {
   double join_mm = 0.01;  // ends of curves that are nearer are one
 };
 
+// Sets are closed: at an end where a wedge begins, forces have grown beyond all bounds. A set that branches, or comes
+// back, lists its pieces one after the other; samples then jump.
 std::vector<EquilibriumSet> equilibria(const ContactSpace& space, const PushSet& push,
                                        const EquilibriaOptions& options = {});
 

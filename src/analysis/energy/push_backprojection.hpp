@@ -13,7 +13,9 @@ namespace formotion {
 
 // Certain: every member of the set that was projected ends in the goal, and none was ambiguous with a way elsewhere;
 // Possible: some do; Impossible: none does. Members: the ends of both intervals, and within by their histories
-// (outcome_of_set): what is between projected members of one history is taken to share it.
+// (outcome_of_set): what is between projected members of one history is taken to share it. A steady translation ends in
+// the goal if it begins there and is still there a thousand of the part's reaches on. Paths that are undecided, and
+// ambiguities that are not followed, are Possible: neither is shown.
 Verdict ends_in(const ContactSpace& space, const PushSet& push, const Configuration& start,
                 const std::function<bool(const Configuration&)>& is_goal);
 
