@@ -27,17 +27,17 @@ struct EscapeOptions {
   double gap_mm = 0.1;          // refined until upper - lower is at most this
   double least_cell_mm = 0.05;  // never smaller cells than this; angles by the part's reach
   long most_cells = 1000000;    // looked at, for one bracket; the bracket found by then is returned
-  bool want_path = true;        // else the upper bound is left out, and the gap is that of cells of gap_mm
+  bool want_path = true;        // else the upper bound is left out: what is free is looked at in places alone
 };
 
 struct EscapeBracket {
-  double lower_mm = 0;                // rise over the start; no way out stays below it
+  double lower_mm = 0;                // rise over the start; no way out stays below it. Infinite: enclosed
   std::optional<double> upper_mm;     // the rise of `path`; none where no path was found
   std::vector<Configuration> path;    // from the start to outside: each next one is reached by a straight motion in
                                       // (x, y, theta) that is free (or touches)
   std::optional<Configuration> pass;  // the highest place of the path
   long cells = 0;
-  std::string why;  // where the bracket is wider than asked for
+  std::string why;  // where the bracket is wider than asked for; "enclosed" where no way out exists
 };
 
 // The start must be free (touching counts as free).
