@@ -14,8 +14,8 @@ constexpr double kWidestTurn_rad = std::numbers::pi / 4;
 constexpr double kHere_mm = 1e-6, kHere = 1e-9;  // a place on a border belongs to both sides
 constexpr int kMostAcross = 60;                  // largest cells
 
-Range common(const Range& a, const Range& b) { return {std::max(a.low, b.low), std::min(a.high, b.high)}; }
-bool is_some(const Range& range) { return range.low <= range.high; }
+RealRange common(const RealRange& a, const RealRange& b) { return {std::max(a.low, b.low), std::min(a.high, b.high)}; }
+bool is_some(const RealRange& range) { return range.low <= range.high; }
 
 }  // namespace
 
@@ -69,11 +69,11 @@ EnergyCells::EnergyCells(const OpenHeights& heights, const CellLayout& layout) :
 void EnergyCells::look_at(int index) {
   Cell& cell = cells_[index];
   ++looked_at_;
-  const std::vector<Range> open = heights_->open({across_.value(cell.at[0]), across_.value(cell.end(0))},
-                                                 {turn_.value(cell.at[1]), turn_.value(cell.end(1))});
+  const std::vector<RealRange> open = heights_->open({across_.value(cell.at[0]), across_.value(cell.end(0))},
+                                                     {turn_.value(cell.at[1]), turn_.value(cell.end(1))});
   cell.first_node = static_cast<int>(nodes_.size());
   cell.node_count = static_cast<int>(open.size());
-  for (const Range& range : open) nodes_.push_back({index, range, {}});
+  for (const RealRange& range : open) nodes_.push_back({index, range, {}});
 }
 
 double EnergyCells::side_mm(const Cell& cell, int k) const {
@@ -128,14 +128,14 @@ void EnergyCells::join(int index, int other_index, int k, std::int64_t at) {
   for (int a = 0; a < cell.node_count; ++a) {
     for (int b = 0; b < other.node_count; ++b) {
       const int first = cell.first_node + a, second = other.first_node + b;
-      const Range both = common(nodes_[first].heights, nodes_[second].heights);
+      const RealRange both = common(nodes_[first].heights, nodes_[second].heights);
       if (is_some(both)) add_crossing(first, second, both, k, at, from, to);
     }
   }
 }
 
-void EnergyCells::add_crossing(int first, int second, const Range& heights, int k, std::int64_t at, std::int64_t from,
-                               std::int64_t to) {
+void EnergyCells::add_crossing(int first, int second, const RealRange& heights, int k, std::int64_t at,
+                               std::int64_t from, std::int64_t to) {
   Crossing crossing;
   crossing.first = first;
   crossing.second = second;
@@ -169,7 +169,7 @@ std::vector<int> EnergyCells::nodes_at(const Place& place) const {
       continue;
     }
     for (int n = cell.first_node; n < cell.first_node + cell.node_count; ++n) {
-      const Range& heights = nodes_[n].heights;
+      const RealRange& heights = nodes_[n].heights;
       if (place.height_mm >= heights.low - kHere_mm && place.height_mm <= heights.high + kHere_mm) found.push_back(n);
     }
   }
@@ -177,8 +177,8 @@ std::vector<int> EnergyCells::nodes_at(const Place& place) const {
   return found;
 }
 
-const std::vector<Range>& EnergyCells::free_at(double across_mm, double turn_rad, std::int64_t key_across,
-                                               std::int64_t key_turn) {
+const std::vector<RealRange>& EnergyCells::free_at(double across_mm, double turn_rad, std::int64_t key_across,
+                                                   std::int64_t key_turn) {
   const std::uint64_t key = static_cast<std::uint64_t>(key_across) << 32 | static_cast<std::uint64_t>(key_turn);
   const auto [entry, is_new] = free_.try_emplace(key);
   if (is_new) {
@@ -196,12 +196,13 @@ void EnergyCells::tighten(int index) {
   const double at = axis(k).value(crossing.at);
   const double from = axis(1 - k).value(crossing.from), to = axis(1 - k).value(crossing.to);
   ++looked_at_;
-  const std::vector<Range> open = k == 0 ? heights_->open({at, at}, {from, to}) : heights_->open({from, to}, {at, at});
-  Range within{1, 0};
-  for (const Range& range : open) {
-    const Range here = common(range, crossing.heights);
+  const std::vector<RealRange> open =
+      k == 0 ? heights_->open({at, at}, {from, to}) : heights_->open({from, to}, {at, at});
+  RealRange within{1, 0};
+  for (const RealRange& range : open) {
+    const RealRange here = common(range, crossing.heights);
     if (!is_some(here)) continue;
-    within = is_some(within) ? Range{std::min(within.low, here.low), std::max(within.high, here.high)} : here;
+    within = is_some(within) ? RealRange{std::min(within.low, here.low), std::max(within.high, here.high)} : here;
   }
   if (!is_some(within)) {
     crossing.is_alive = false;
@@ -215,8 +216,8 @@ void EnergyCells::tighten(int index) {
     const std::array<double, 2> place = k == 0 ? std::array{at, value} : std::array{value, at};
     const std::array<std::int64_t, 2> key =
         k == 0 ? std::array{2 * crossing.at, along % whole} : std::array{along, 2 * crossing.at % whole};
-    for (const Range& range : free_at(place[0], place[1], key[0], key[1])) {
-      const Range here = common(range, within);
+    for (const RealRange& range : free_at(place[0], place[1], key[0], key[1])) {
+      const RealRange here = common(range, within);
       if (is_some(here)) crossing.places.push_back({place[0], place[1], here});
     }
   }

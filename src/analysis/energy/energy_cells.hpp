@@ -21,13 +21,13 @@ struct CellLayout {
 // A place on a crossing at which the part is free from `heights.low` on.
 struct CrossingPlace {
   double across_mm = 0, turn_rad = 0;
-  Range heights;
+  RealRange heights;
 };
 
 // Between two nodes. low: no way across is lower.
 struct Crossing {
   int first = 0, second = 0;
-  Range heights;
+  RealRange heights;
   bool is_alive = true, is_tight = false, is_banned = false;
   int axis = 0;  // the side is at one place across (0) or one turn (1)
   std::int64_t at = 0, from = 0, to = 0;
@@ -40,7 +40,7 @@ struct Crossing {
 // One stretch of heights in one cell. Node 0 is outside.
 struct EnergyNode {
   int cell = -1;
-  Range heights;
+  RealRange heights;
   std::vector<int> crossings;
 };
 
@@ -89,9 +89,10 @@ class EnergyCells {
                  std::vector<int>& found) const;
   void join(int cell, int axis, bool above, int except);
   void join(int cell, int other, int axis, std::int64_t at);
-  void add_crossing(int first, int second, const Range& heights, int axis, std::int64_t at, std::int64_t from,
+  void add_crossing(int first, int second, const RealRange& heights, int axis, std::int64_t at, std::int64_t from,
                     std::int64_t to);
-  const std::vector<Range>& free_at(double across_mm, double turn_rad, std::int64_t key_across, std::int64_t key_turn);
+  const std::vector<RealRange>& free_at(double across_mm, double turn_rad, std::int64_t key_across,
+                                        std::int64_t key_turn);
 
   const OpenHeights* heights_;
   CellLayout layout_;
@@ -100,7 +101,7 @@ class EnergyCells {
   std::vector<Cell> cells_;  // the roots first
   std::vector<EnergyNode> nodes_;
   std::vector<Crossing> crossings_;
-  std::unordered_map<std::uint64_t, std::vector<Range>> free_;  // looked up only
+  std::unordered_map<std::uint64_t, std::vector<RealRange>> free_;  // looked up only
   long looked_at_ = 0;
 };
 

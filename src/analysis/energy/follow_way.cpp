@@ -19,7 +19,7 @@ constexpr std::array<double, 3> kOff_mm{0.4, 0.1, 0.02};  // first moves out of 
 constexpr std::size_t kMostOff = 8;
 
 // As high as allowed, so that what lies between is cleared; in the middle under a ceiling.
-double height_in(const Range& heights, double most_mm) {
+double height_in(const RealRange& heights, double most_mm) {
   if (heights.high > most_mm) return std::max(heights.low, most_mm);
   return std::isfinite(heights.low) ? heights.low + (heights.high - heights.low) / 2 : heights.high - kBelow_mm;
 }
@@ -94,7 +94,7 @@ std::optional<Place> WaySearch::raised(const Place& place, double most_mm) const
   const auto up_to = [&](double height) {
     return Place{place.across_mm, std::max(height, place.height_mm), place.turn_rad};
   };
-  for (const Range& range : heights_->free(place.across_mm, place.turn_rad)) {
+  for (const RealRange& range : heights_->free(place.across_mm, place.turn_rad)) {
     if (place.height_mm < range.low - kHere_mm || place.height_mm > range.high + kHere_mm) continue;
     const Place up = up_to(height_in({std::max(place.height_mm, range.low), range.high}, most_mm));
     if (heights_->is_straight_free(place, up)) return up;

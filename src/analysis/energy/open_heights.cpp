@@ -17,7 +17,7 @@ struct Closed {
   double low = -kInfinity, high = kInfinity;
   bool is_empty() const { return !(low < high); }
   // n . q < bound everywhere across.
-  void limit(const Point& n, double bound, const Range& across) {
+  void limit(const Point& n, double bound, const RealRange& across) {
     const double least = bound - std::max(n.x() * across.low, n.x() * across.high);
     if (std::abs(n.y()) < kLevel) {
       if (!(least > 0)) high = -kInfinity;
@@ -49,7 +49,8 @@ double least_support(const ConvexPiece& piece, const Arc& arc) {
 }
 
 // m . q < h_O(m) + d for all m of the arc and all places across. More directions than decide do no harm.
-void limit_by_turning_edge(const ConvexPiece& fixed, const Arc& arc, double d, const Range& across, Closed& closed) {
+void limit_by_turning_edge(const ConvexPiece& fixed, const Arc& arc, double d, const RealRange& across,
+                           Closed& closed) {
   const auto limit = [&](const Point& m) { closed.limit(m, fixed.support_mm(m) + d, across); };
   limit(arc.from);
   if (arc.from == arc.to) return;
@@ -93,8 +94,8 @@ struct Spread {
         on(least_support(part, {{to.c, -to.s}, {from.c, -from.s}})) {}
 };
 
-std::optional<Range> closed_by(const ConvexPiece& part, const Spread& spread, const ConvexPiece& fixed,
-                               const Range& across, const Turn& from, const Turn& to, double slack_mm) {
+std::optional<RealRange> closed_by(const ConvexPiece& part, const Spread& spread, const ConvexPiece& fixed,
+                                   const RealRange& across, const Turn& from, const Turn& to, double slack_mm) {
   // Beside it somewhere in the cell: most pairs end here.
   if (across.high >= fixed.box.max.x() + spread.back - slack_mm) return std::nullopt;
   if (across.low <= fixed.box.min.x() - spread.on + slack_mm) return std::nullopt;
@@ -111,23 +112,23 @@ std::optional<Range> closed_by(const ConvexPiece& part, const Spread& spread, co
     limit_by_turning_edge(fixed, arc, part.offsets_mm[e] - slack_mm, across, closed);
     if (closed.is_empty()) return std::nullopt;
   }
-  return Range{closed.low, closed.high};
+  return RealRange{closed.low, closed.high};
 }
 
-std::vector<Range> heights_left(const std::vector<ConvexPiece>& part, const std::vector<ConvexPiece>& fixed,
-                                const Range& across, const Range& turn, double slack_mm) {
+std::vector<RealRange> heights_left(const std::vector<ConvexPiece>& part, const std::vector<ConvexPiece>& fixed,
+                                    const RealRange& across, const RealRange& turn, double slack_mm) {
   const Turn from(turn.low), to(turn.high);
-  std::vector<Range> closed;
+  std::vector<RealRange> closed;
   for (const ConvexPiece& p : part) {
     const Spread spread(p, from, to);
     for (const ConvexPiece& o : fixed) {
       if (const auto range = closed_by(p, spread, o, across, from, to, slack_mm)) closed.push_back(*range);
     }
   }
-  std::sort(closed.begin(), closed.end(), [](const Range& a, const Range& b) { return a.low < b.low; });
-  std::vector<Range> left;
+  std::sort(closed.begin(), closed.end(), [](const RealRange& a, const RealRange& b) { return a.low < b.low; });
+  std::vector<RealRange> left;
   double at = -kInfinity;
-  for (const Range& range : closed) {
+  for (const RealRange& range : closed) {
     if (range.low >= at) left.push_back({at, range.low});  // of no length, too: a slot without clearance
     at = std::max(at, range.high);
   }
@@ -159,11 +160,11 @@ Configuration OpenHeights::configuration_of(const Place& place) const {
   return {p.x(), p.y(), place.turn_rad + turned_rad_};
 }
 
-std::vector<Range> OpenHeights::open(const Range& across_mm, const Range& turn_rad) const {
+std::vector<RealRange> OpenHeights::open(const RealRange& across_mm, const RealRange& turn_rad) const {
   return heights_left(part_, within_, across_mm, turn_rad, kClosed_mm);
 }
 
-std::vector<Range> OpenHeights::free(double across_mm, double turn_rad) const {
+std::vector<RealRange> OpenHeights::free(double across_mm, double turn_rad) const {
   return heights_left(part_, around_, {across_mm, across_mm}, {turn_rad, turn_rad}, kTouch_mm);
 }
 

@@ -18,7 +18,7 @@
 
 namespace formotion {
 
-struct Range {
+struct RealRange {
   double low = 0, high = 0;
 };
 
@@ -37,9 +37,9 @@ class OpenHeights {
 
   // The heights, ascending, at which it may be free somewhere in the cell: at all others some piece of the part
   // overlaps one obstacle, everywhere in the cell, by more than kClosed_mm. turn: less than a quarter turn wide.
-  std::vector<Range> open(const Range& across_mm, const Range& turn_rad) const;
+  std::vector<RealRange> open(const RealRange& across_mm, const RealRange& turn_rad) const;
   // The heights at which it is free (or touches) at one place and turn. Round corners count as larger by the sagitta.
-  std::vector<Range> free(double across_mm, double turn_rad) const;
+  std::vector<RealRange> free(double across_mm, double turn_rad) const;
   // Whether the straight motion is free or touches all along. Proved: true is certain.
   bool is_straight_free(const Place& from, const Place& to) const;
 

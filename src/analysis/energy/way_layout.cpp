@@ -80,7 +80,7 @@ std::vector<double> tight_lines(const ContactSpace& space, const OpenHeights& he
 }
 
 struct Extent {
-  Range across{1e300, -1e300};
+  RealRange across{1e300, -1e300};
   double lowest = 1e300;
 };
 
@@ -108,7 +108,7 @@ CellLayout laid_out(const ContactSpace& space, const OpenHeights& heights, const
   layout.reach_mm = reach_of(space);
   layout.least_mm = std::max(options.least_cell_mm, 1e-6);
   layout.widest_mm = std::max(2 * layout.reach_mm, layout.least_mm);
-  Range ends = goal ? Range{goal->from_mm, goal->to_mm} : extent_of(space.obstacles, gravity).across;
+  RealRange ends = goal ? RealRange{goal->from_mm, goal->to_mm} : extent_of(space.obstacles, gravity).across;
   if (!goal) {
     for (const Place& place : places) {
       ends.low = std::min(ends.low, place.across_mm);

@@ -10,13 +10,13 @@ using namespace formotion::testing;
 
 namespace {
 
-bool holds(const std::vector<Range>& ranges, double height) {
+bool holds(const std::vector<RealRange>& ranges, double height) {
   return std::any_of(ranges.begin(), ranges.end(),
-                     [height](const Range& r) { return height >= r.low && height <= r.high; });
+                     [height](const RealRange& r) { return height >= r.low && height <= r.high; });
 }
 
-double near_an_end(const std::vector<Range>& ranges, witness::Random& random) {
-  const Range& range = ranges[witness::below(random, static_cast<int>(ranges.size()))];
+double near_an_end(const std::vector<RealRange>& ranges, witness::Random& random) {
+  const RealRange& range = ranges[witness::below(random, static_cast<int>(ranges.size()))];
   const double end = witness::below(random, 2) ? range.low : range.high;
   return (std::isfinite(end) ? end : 0) +
          witness::uniform(random, -1, 1) * std::pow(10, witness::uniform(random, -6, 0));
@@ -37,10 +37,10 @@ TEST_CASE("no member of a cell is free at a height that is closed for the cell")
     const Nest nest(drawn.part, drawn.fixed, drawn.grow_mm, 0.7 * i);
     const OpenHeights heights(nest.space, nest.gravity, 0.002);
     for (int cell = 0; cell < 30; ++cell) {
-      Range across{witness::uniform(random, -40, 40), 0}, turn{witness::uniform(random, 0, 6), 0};
+      RealRange across{witness::uniform(random, -40, 40), 0}, turn{witness::uniform(random, 0, 6), 0};
       across.high = across.low + (cell % 5 ? std::pow(10, witness::uniform(random, -3, 0.8)) : 0);
       turn.high = turn.low + (cell % 7 ? std::pow(10, witness::uniform(random, -3, -0.1)) : 0);
-      const std::vector<Range> open = heights.open(across, turn);
+      const std::vector<RealRange> open = heights.open(across, turn);
       for (int member = 0; member < 20; ++member) {
         const Place place{member % 3 ? witness::uniform(random, across.low, across.high) : across.low,
                           member % 2 ? near_an_end(open, random) : witness::uniform(random, -40, 20),
@@ -65,11 +65,11 @@ TEST_CASE("free heights at a place are free and all that is free lies in them") 
     for (int k = 0; k < 20; ++k) {
       Place place{witness::uniform(random, -40, 40), 0, witness::uniform(random, 0, 6)};
       if (i % 4 == 1) place.across_mm = std::round(place.across_mm);
-      const std::vector<Range> free = heights.free(place.across_mm, place.turn_rad);
+      const std::vector<RealRange> free = heights.free(place.across_mm, place.turn_rad);
       for (int member = 0; member < 30; ++member) {
         place.height_mm = member % 2 ? near_an_end(free, random) : witness::uniform(random, -40, 20);
         const bool is_free = nest.is_free(heights.configuration_of(place)), is_in = holds(free, place.height_mm);
-        const bool at_end = std::any_of(free.begin(), free.end(), [&](const Range& r) {
+        const bool at_end = std::any_of(free.begin(), free.end(), [&](const RealRange& r) {
           return std::min(std::abs(place.height_mm - r.low), std::abs(place.height_mm - r.high)) < 0.02;
         });
         if (is_in == is_free) continue;
@@ -77,7 +77,7 @@ TEST_CASE("free heights at a place are free and all that is free lies in them") 
         CAPTURE(i, k, place.across_mm, place.height_mm, place.turn_rad);
         ++members;
         CHECK(at_end);
-        CHECK((is_free || std::any_of(free.begin(), free.end(), [&](const Range& r) {
+        CHECK((is_free || std::any_of(free.begin(), free.end(), [&](const RealRange& r) {
                  return std::min(std::abs(place.height_mm - r.low), std::abs(place.height_mm - r.high)) < 1e-6;
                })));
       }
