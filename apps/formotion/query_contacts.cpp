@@ -1,5 +1,4 @@
 // query: clearance, contacts, facets.
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -12,18 +11,8 @@ namespace {
 
 double degrees(double rad) { return rad * 180 / std::numbers::pi + 0.0; }
 
-OrderedJson number_or_null(const std::optional<int>& index) {
-  return index ? OrderedJson(*index) : OrderedJson(nullptr);
-}
-
-// Contacts within a large tolerance need not be on the edge itself.
-template <class Edge>
-Point on_edge(const Edge& edge, const Point& p) {
-  return edge.from + std::clamp(edge.along.dot(p - edge.from), 0.0, edge.length_mm) * edge.along;
-}
-
 // A facet's middle: there its features are for sure.
-Configuration middle_of(const feeder::World& world, const ContactFacet& facet) {
+Configuration middle_of(const QueriedWorld& world, const ContactFacet& facet) {
   const double theta = facet.orientations.from_rad + facet.orientations.width_rad / 2;
   double along = facet.extent_mm / 2;
   const auto ranges = along_ranges(world.part, world.obstacles, facet.pair, theta);
@@ -32,9 +21,16 @@ Configuration middle_of(const feeder::World& world, const ContactFacet& facet) {
 }
 
 // With the part at q, where the pair touches.
-Point place_of(const feeder::World& world, const ContactPair& pair, const Configuration& q) {
+Point place_of(const QueriedWorld& world, const ContactPair& pair, const Configuration& q) {
   const double c = std::cos(q.theta_rad), s = std::sin(q.theta_rad);
   return q.position() + contact_state(world.part, world.obstacles, pair, q.position(), c, s).lever;
+}
+
+// The keys type, moving, fixed of a contact; place: on the obstacle, with the part at q.
+OrderedJson pair_json(const QueriedWorld& world, const ContactPair& pair, const Configuration& q, const Point& place) {
+  OrderedJson json{{"type", kind_word(pair.kind)}};
+  json.update(features_json(world.names.of(world.part, world.obstacles, pair, q, place)));
+  return json;
 }
 
 OrderedJson boundary_json(const ContactFacet& facet) {
@@ -62,39 +58,15 @@ OrderedJson configuration_json(const Configuration& q) {
   return {{"x_mm", q.x_mm + 0.0}, {"y_mm", q.y_mm + 0.0}, {"theta_deg", degrees(q.theta_rad)}};
 }
 
-OrderedJson pair_json(const QueriedWorld& queried, const ContactPair& pair, const Configuration& q,
-                      const Point& place) {
-  const MovingShape& part = queried.world.part;
-  const Obstacles& obstacles = queried.world.obstacles;
-  OrderedJson json{{"type", pair.kind == ContactKind::EdgeOnCorner ? "EV" : "VE"}};
-  std::pair<int, int> fixed;
-  if (pair.kind == ContactKind::EdgeOnCorner) {
-    const MovingEdge& edge = part.edges[pair.moving];
-    const Point at = on_edge(edge, rotated(place - q.position(), -q.theta_rad));
-    json["moving"] = number_or_null(queried.names.moving_edge(at, edge.along));
-  } else {
-    json["moving"] = number_or_null(queried.names.moving_corner(part.corners[pair.moving].at));
-  }
-  if (pair.kind == ContactKind::CornerOnEdge) {
-    const FixedEdge& edge = obstacles.edges[pair.fixed];
-    fixed = queried.names.fixed_edge(on_edge(edge, place), edge.along, edge.name.component);
-  } else {
-    const FixedCorner& corner = obstacles.corners[pair.fixed];
-    fixed = queried.names.fixed_corner(corner.centre, corner.name.component);
-  }
-  json["fixed"] = {fixed.first, fixed.second};
-  return json;
-}
-
-OrderedJson clearance_answer(const QueriedWorld& queried, const Configuration& q) {
-  const double mm = clearance_mm(queried.world.part, queried.world.obstacles, q);
+OrderedJson clearance_answer(const QueriedWorld& world, const Configuration& q) {
+  const double mm = clearance_mm(world.part, world.obstacles, q);
   return {{"free", mm >= 0}, {"clearance_mm", mm + 0.0}};
 }
 
-OrderedJson contacts_answer(const QueriedWorld& queried, const Configuration& q, double tolerance_mm) {
+OrderedJson contacts_answer(const QueriedWorld& world, const Configuration& q, double tolerance_mm) {
   OrderedJson list = OrderedJson::array();
-  for (const Contact& contact : contacts_at(queried.world.part, queried.world.obstacles, q, tolerance_mm)) {
-    OrderedJson json = pair_json(queried, contact.pair, q, contact.point);
+  for (const Contact& contact : contacts_at(world.part, world.obstacles, q, tolerance_mm)) {
+    OrderedJson json = pair_json(world, contact.pair, q, contact.point);
     json["point_mm"] = point_json(contact.point);
     json["normal"] = point_json(contact.state.normal);
     list.push_back(std::move(json));
@@ -102,11 +74,11 @@ OrderedJson contacts_answer(const QueriedWorld& queried, const Configuration& q,
   return {{"contacts", list}};
 }
 
-OrderedJson facets_answer(const QueriedWorld& queried) {
+OrderedJson facets_answer(const QueriedWorld& world) {
   OrderedJson list = OrderedJson::array();
-  for (const ContactFacet& facet : contact_facets(queried.world.part, queried.world.obstacles)) {
-    const Configuration middle = middle_of(queried.world, facet);
-    OrderedJson json = pair_json(queried, facet.pair, middle, place_of(queried.world, facet.pair, middle));
+  for (const ContactFacet& facet : contact_facets(world.part, world.obstacles)) {
+    const Configuration middle = middle_of(world, facet);
+    OrderedJson json = pair_json(world, facet.pair, middle, place_of(world, facet.pair, middle));
     const double from = facet.orientations.from_rad, to = from + facet.orientations.width_rad;
     json["theta_deg"] = {degrees(from), degrees(to)};
     json["boundary"] = boundary_json(facet);

@@ -1,4 +1,4 @@
-// query: motion, project.
+// query: motion.
 #include "analysis/contact/clearance.hpp"
 #include "analysis/motion/contact_law.hpp"
 #include "query_answers.hpp"
@@ -22,29 +22,6 @@ const char* name(ContactMode mode) {
   return "break";
 }
 
-// The contract's outcomes, from the motion alone: support is another question.
-const char* outcome(const Projection& projection) {
-  switch (projection.end) {
-    case ProjectionEnd::Steady:
-      return projection.last_twist.linear.x() > 0 ? "delivered" : "rejected";
-    case ProjectionEnd::AtRest:
-      return "jammed";
-    case ProjectionEnd::Ambiguous:
-      return "ambiguous";
-    case ProjectionEnd::Stopped:  // nobody watches
-    case ProjectionEnd::Undecided:
-      return "undecided";
-  }
-  return "undecided";
-}
-
-bool overlaps(const QueriedWorld& queried, const Configuration& q, double tolerance_mm, IssueList& issues) {
-  const double mm = clearance_mm(queried.world.part, queried.world.obstacles, q);
-  if (mm >= -tolerance_mm) return false;
-  issues.add("/q", "a part that overlaps what is fixed by " + OrderedJson(-mm).dump() + " mm", "a free configuration");
-  return true;
-}
-
 OrderedJson wrench_json(const ContactPoint& contact, const ContactForce& force) {
   const Point f = force.normal * contact.normal + force.tangential * turned_left(contact.normal);
   return {f.x() + 0.0, f.y() + 0.0, cross(contact.lever, f) + 0.0};
@@ -52,9 +29,16 @@ OrderedJson wrench_json(const ContactPoint& contact, const ContactForce& force) 
 
 }  // namespace
 
-OrderedJson motion_answer(const QueriedWorld& queried, const Configuration& q, double tolerance_mm, IssueList& issues) {
-  const feeder::World& world = queried.world;
-  if (overlaps(queried, q, tolerance_mm, issues)) return {};
+bool overlaps(const QueriedWorld& world, const Configuration& q, double tolerance_mm, IssueList& issues) {
+  const double mm = clearance_mm(world.part, world.obstacles, q);
+  if (mm >= -tolerance_mm) return false;
+  issues.add("/q", "a part that overlaps what is fixed by " + OrderedJson(-mm).dump() + " mm", "a free configuration");
+  return true;
+}
+
+OrderedJson motion_answer(const QueriedWorld& world, const MotionLaw& law, const Configuration& q, double tolerance_mm,
+                          IssueList& issues) {
+  if (overlaps(world, q, tolerance_mm, issues)) return {};
   std::vector<ContactPoint> points;
   for (const Contact& contact : contacts_at(world.part, world.obstacles, q, tolerance_mm))
     points.push_back({contact.state.normal, contact.state.lever});
@@ -63,7 +47,6 @@ OrderedJson motion_answer(const QueriedWorld& queried, const Configuration& q, d
                "at most " + std::to_string(kMostContacts) + ", or a smaller tolerance_mm");
     return {};
   }
-  const MotionLaw law = damped(world.drive.force, world.part.gyration_mm, world.drive.friction);
   OrderedJson motions = OrderedJson::array();
   for (const Motion& motion : consistent_motions(points, law)) {
     OrderedJson json;
@@ -77,14 +60,11 @@ OrderedJson motion_answer(const QueriedWorld& queried, const Configuration& q, d
     motions.push_back(std::move(json));
   }
   OrderedJson answer{{"motions", motions}};
-  answer.update(contacts_answer(queried, q, tolerance_mm));  // what the modes are of, in this order
+  answer.update(contacts_answer(world, q, tolerance_mm));  // what the modes are of, in this order
   return answer;
 }
 
-OrderedJson project_answer(const QueriedWorld& queried, const Configuration& q, IssueList& issues) {
-  const feeder::World& world = queried.world;
-  if (overlaps(queried, q, kTouches_mm, issues)) return {};
-  const Projection projection = project(world.part, world.obstacles, world.drive, q);
+OrderedJson way_answer(const Projection& projection, const std::string& outcome) {
   OrderedJson path = OrderedJson::array();
   const auto add = [&path](const Configuration& at, const OrderedJson& event) {
     path.push_back(configuration_json(at));
@@ -97,7 +77,7 @@ OrderedJson project_answer(const QueriedWorld& queried, const Configuration& q, 
   add(projection.last, projection.end == ProjectionEnd::Steady   ? OrderedJson("goes on for ever")
                        : projection.end == ProjectionEnd::AtRest ? OrderedJson("rests")
                                                                  : OrderedJson("ends here"));
-  OrderedJson answer{{"outcome", outcome(projection)}, {"path", path}};
+  OrderedJson answer{{"outcome", outcome}, {"path", path}};
   answer["why"] = projection.why;
   return answer;
 }

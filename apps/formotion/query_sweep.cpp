@@ -45,9 +45,9 @@ SweepQuestion read_sweep(ObjectReader& object, IssueList& issues) {
   return question;
 }
 
-OrderedJson sweep_answer(const feeder::AspectShape& shape, const SweepQuestion& question) {
+OrderedJson sweep_answer(const std::vector<Polygon>& bodies, const SweepQuestion& question) {
   const feeder::SweptObstacle swept =
-      feeder::swept_obstacle(shape.bodies, question.path, question.region, question.precision_mm);
+      feeder::swept_obstacle(bodies, question.path, question.region, question.precision_mm);
   OrderedJson polygon = OrderedJson::array(), pieces = OrderedJson::array();
   if (!swept.pieces.empty()) polygon = loop_of_points(swept.pieces.front().outer);
   for (const Polygon& piece : swept.pieces) {

@@ -45,9 +45,7 @@ void keep_stamps(const std::string& folder, const std::map<std::string, std::str
 
 int run_verify(const std::string& folder, const VerifyCommand& command) {
   const LoadedRun loaded(folder);
-  if (loaded.file.kind != "feeder")
-    throw InputError({{folder, "/kind", false, "a run of an assembly, which verify does not check yet", "a feeder's"}});
-  const feeder::FeederProblem problem(loaded.file.feeder);
+  const Verifier verify = verifier_of(loaded.file);
   const std::vector<Evaluated> designs = chosen_designs(loaded, command.designs);
   if (designs.empty()) {
     std::cerr << "no feasible design to verify\n";
@@ -60,7 +58,7 @@ int run_verify(const std::string& folder, const VerifyCommand& command) {
   std::size_t printed = 0;
   std::mutex printing;
   run_parallel(static_cast<int>(designs.size()), command.threads, [&](int i) {
-    Verification result = verify_design(problem, designs[static_cast<std::size_t>(i)], same_program, options);
+    Verification result = verify(designs[static_cast<std::size_t>(i)], same_program, options);
     const std::lock_guard lock(printing);
     results[static_cast<std::size_t>(i)] = std::move(result);
     // In the front's order, as soon as all before are done.

@@ -14,16 +14,30 @@ using namespace assembly;
 Json number(double value) { return std::isfinite(value) ? Json(value + 0.0) : Json(nullptr); }
 Json number(const std::optional<double>& value) { return value ? number(*value) : Json(nullptr); }
 
+struct NamedScene {
+  std::unique_ptr<Scene> scene;
+  WrittenNames names;
+};
+
 // Degrees without the rounding of the conversion: 90, not 90.00000000000001.
 Json degrees(double rad) { return number(std::round(rad * 180 / std::numbers::pi * 1e9) / 1e9); }
 
 Json point(const Point& p) { return {number(p.x()), number(p.y())}; }
 
-Json contacts_json(const Scene& scene, const std::vector<CarriedContact>& contacts) {
+// Where the part has come to.
+Configuration end_of(const InsertionTask& task, const Insertion& end) {
+  const Point& along = task.approach.direction;
+  const Point at = task.drawn.position() + end.depth_mm * along + end.lateral_mm * turned_left(along);
+  return {at.x(), at.y(), task.drawn.theta_rad + end.tilt_rad};
+}
+
+Json contacts_json(const NamedScene& named, const Insertion& end) {
   Json json = Json::array();
-  for (const CarriedContact& contact : contacts) {
+  const Scene& scene = *named.scene;
+  const Configuration q = end_of(scene.task, end);
+  for (const CarriedContact& contact : end.contacts) {
     Json one{{"type", kind_word(contact.pair.kind)}};
-    one.update(features_json(scene.part, scene.obstacles, contact.pair));
+    one.update(features_json(named.names.of(scene.part, scene.obstacles, contact.pair, q, contact.point)));
     one["point_mm"] = point(contact.point);
     one["normal"] = point(contact.normal);
     one["mode"] = mode_word(contact.mode);
@@ -37,7 +51,7 @@ Json errors_json(const StartResult& start) {
   return {{"x_mm", number(start.x_mm)}, {"y_mm", number(start.y_mm)}, {"theta_deg", degrees(start.theta_rad)}};
 }
 
-Json start_json(const StartResult& start, const Scene* scene) {
+Json start_json(const StartResult& start, const NamedScene& named) {
   const Insertion& end = start.insertion;
   Json json = errors_json(start);
   json["outcome"] = name(end.outcome);
@@ -47,7 +61,7 @@ Json start_json(const StartResult& start, const Scene* scene) {
   json["peak_force_n"] = number(end.peak_axial_n);
   json["work_nmm"] = number(end.work_nmm);
   json["why"] = end.why;
-  json["contacts"] = scene ? contacts_json(*scene, end.contacts) : Json::array();
+  json["contacts"] = contacts_json(named, end);
   return json;
 }
 
@@ -100,14 +114,14 @@ const char* mode_word(ContactMode mode) {
   return "break";
 }
 
-const char* kind_word(ContactKind kind) { return kind == ContactKind::EdgeOnCorner ? "EV" : "VE"; }
-
-nlohmann::ordered_json features_json(const MovingShape& part, const Obstacles& obstacles, const ContactPair& pair) {
-  const FixedName& fixed =
-      pair.kind == ContactKind::CornerOnEdge ? obstacles.edges[pair.fixed].name : obstacles.corners[pair.fixed].name;
-  const int moving =
-      pair.kind == ContactKind::EdgeOnCorner ? part.edges[pair.moving].index : part.corners[pair.moving].index;
-  return {{"moving", moving}, {"fixed", {fixed.component, fixed.index}}};
+WrittenNames names_of(const Joint& joint, const std::string& aspect, const Point& about) {
+  std::vector<Loop> part = joint.part_mm;
+  for (Loop& loop : part) {
+    for (Point& p : loop) p = Joint::held(p, about, aspect);
+  }
+  std::vector<std::vector<Loop>> fixed;
+  for (const Loop& loop : joint.fixed_mm) fixed.push_back({loop});
+  return {std::move(part), std::move(fixed)};
 }
 
 Json metrics_json(const Metrics& m) {
@@ -150,10 +164,12 @@ Json evaluation_json(const AssemblyProblem& problem, int topology, std::span<con
     json["worst_case"] = metrics_json(evaluation.worst_case.value_or(evaluation.metrics));
     json["worst_case"]["bites"] = evaluation.bites ? Json(*evaluation.bites) : Json(nullptr);
   }
-  // Starts there are only where the shapes are valid.
-  const std::unique_ptr<Scene> scene = evaluation.starts.empty() ? nullptr : problem.scene(topology, values, "up", 0);
   json["starts"] = Json::array();
-  for (const StartResult& start : evaluation.starts) json["starts"].push_back(start_json(start, scene.get()));
+  if (!evaluation.starts.empty()) {  // else the shapes are not valid
+    const Joint joint = problem.joint(topology, values);
+    const NamedScene named{problem.scene(topology, values, "up", 0), names_of(joint, "up", joint.centre_mm)};
+    for (const StartResult& start : evaluation.starts) json["starts"].push_back(start_json(start, named));
+  }
   // The middle one of those over other errors along y.
   const std::size_t middle = evaluation.regions.size() / 2;
   json["region"] = evaluation.regions.empty() ? Json(nullptr)

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "applications/assembly/assembly_problem.hpp"
+#include "io/written_names.hpp"
 
 namespace formotion {
 
@@ -19,9 +20,8 @@ nlohmann::ordered_json values_json(const assembly::AssemblyProblem& problem, int
 // A design with literal numbers, as a design file's `fixed_mm` (and `chamfer_mm`).
 nlohmann::ordered_json shapes_json(const assembly::DesignSpec& literal);
 
-// The features of a contact, by their numbers in the shapes: {moving, fixed: [component, index]}.
-nlohmann::ordered_json features_json(const MovingShape& part, const Obstacles& obstacles, const ContactPair& pair);
-const char* kind_word(ContactKind kind);  // "EV" or "VE"
+// What the features of a joint are called, of a moving shape that is relative to `about` (a point of the drawn part).
+WrittenNames names_of(const assembly::Joint& joint, const std::string& aspect, const Point& about);
 const char* mode_word(ContactMode mode);  // "stick", "slide-left", ...
 
 }  // namespace formotion

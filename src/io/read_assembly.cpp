@@ -84,7 +84,7 @@ assembly::PartSpec read_assembly_part(const Json& value, ReadContext& context) {
   read_outlines(object, value, drawn, context);
   const bool flips = object.boolean_or("flips", false);
   object.finish();
-  return {drawn.outline_mm, drawn.holes_mm, flips, thickness};
+  return {drawn.outline_mm, drawn.holes_mm, flips, drawn.com_mm, thickness};
 }
 
 void read_assembly_environment(const Json* value, assembly::AssemblySpec& spec, ReadContext& context) {

@@ -33,13 +33,15 @@ Json loop(const Loop& points, const Point& minus = Point::Zero()) {
 }
 Json interval(const Interval& i, double per = 1) { return {mm(i.min * per), mm(i.max * per)}; }
 
-Json pair_json(const ContactSpace& space, const ContactPair& pair) {
+// place: where the two touch with the part at q.
+Json pair_json(const ContactSpace& space, const WrittenNames& names, const ContactPair& pair, const Configuration& q,
+               const Point& place) {
   Json json{{"kind", kind_word(pair.kind)}};
-  json.update(features_json(space.part, space.obstacles, pair));
+  json.update(features_json(names.of(space.part, space.obstacles, pair, q, place)));
   return json;
 }
 
-Json moment_json(const ContactSpace& space, const InsertionMoment& moment) {
+Json moment_json(const ContactSpace& space, const WrittenNames& names, const InsertionMoment& moment) {
   Json json{{"travel_mm", mm(moment.travel_mm)},
             {"q", {mm(moment.q.x_mm), mm(moment.q.y_mm), degrees(moment.q.theta_rad)}},
             {"depth_mm", mm(moment.depth_mm)},
@@ -49,7 +51,7 @@ Json moment_json(const ContactSpace& space, const InsertionMoment& moment) {
             {"event", moment.event},
             {"contacts", Json::array()}};
   for (const CarriedContact& contact : moment.contacts) {
-    Json one = pair_json(space, contact.pair);
+    Json one = pair_json(space, names, contact.pair, moment.q, contact.point);
     one["point"] = point(contact.point);
     one["normal"] = point(contact.normal);
     one["mode"] = mode_word(contact.mode);
@@ -60,7 +62,7 @@ Json moment_json(const ContactSpace& space, const InsertionMoment& moment) {
 }
 
 // The start projected again, with its path; moments between events are thinned.
-Json insertion_json(const InsertionTask& task, double x_mm, double y_mm, double theta_rad) {
+Json insertion_json(const InsertionTask& task, const WrittenNames& names, double x_mm, double y_mm, double theta_rad) {
   InsertionOptions options;
   options.keep_path = true;
   const Insertion found = insert(task, start_with_errors(task, x_mm, y_mm, theta_rad), options);
@@ -78,13 +80,13 @@ Json insertion_json(const InsertionTask& task, double x_mm, double y_mm, double 
   const std::size_t every = found.path.size() / kMostMoments + 1;
   for (std::size_t i = 0; i < found.path.size(); ++i) {
     const bool kept = i % every == 0 || i + 1 == found.path.size() || (every == 1 && !found.path[i].event.empty());
-    if (kept) json["moments"].push_back(moment_json(*task.space, found.path[i]));
+    if (kept) json["moments"].push_back(moment_json(*task.space, names, found.path[i]));
   }
   if (found.path.empty()) {
     InsertionMoment at_start;
     at_start.q = start_with_errors(task, x_mm, y_mm, theta_rad);
     at_start.event = "overlaps";
-    json["moments"].push_back(moment_json(*task.space, at_start));
+    json["moments"].push_back(moment_json(*task.space, names, at_start));
   }
   return json;
 }
@@ -108,7 +110,7 @@ Json region_json(const AssemblyEvaluation& evaluation) {
   return json;
 }
 
-Json space_json(const Scene& scene) {
+Json space_json(const Scene& scene, const WrittenNames& names) {
   Json json{{"theta_step_deg", degrees(kSliceStep_rad)}, {"slices", Json::array()}, {"facets", Json::array()}};
   std::map<std::size_t, std::size_t> numbers;  // of the pairs that occur
   for (int k = -kSlices; k <= kSlices; ++k) {
@@ -118,7 +120,11 @@ Json space_json(const Scene& scene) {
       const std::size_t pair = scene.space->index_of(piece.pair);
       const auto [known, is_new] = numbers.emplace(pair, numbers.size());
       if (is_new) {
-        Json facet = pair_json(*scene.space, piece.pair);
+        const Point middle = (piece.from + piece.to) / 2;
+        const Configuration q{middle.x(), middle.y(), theta};
+        const ContactState state =
+            contact_state(scene.part, scene.obstacles, piece.pair, middle, std::cos(theta), std::sin(theta));
+        Json facet = pair_json(*scene.space, names, piece.pair, q, middle + state.lever);
         facet["label"] = facet["kind"].get<std::string>() + " part " + facet["moving"].dump() + ", shape " +
                          facet["fixed"][0].dump() + " " + facet["fixed"][1].dump();
         json["facets"].push_back(std::move(facet));
@@ -180,11 +186,13 @@ Json joint_json(const AssemblyProblem& problem, int topology, std::span<const do
   json["capture"] = {{"mm", metrics.capture_mm ? mm(*metrics.capture_mm) : Json(nullptr)},
                      {"deg", metrics.capture_deg ? mm(*metrics.capture_deg) : Json(nullptr)}};
   const std::unique_ptr<Scene> scene = problem.scene(topology, values, "up", 0);
+  const WrittenNames names = names_of(joint, "up", joint.centre_mm);
   const StartsSpec& starts = problem.spec().goal.starts;
   const double y = (starts.y_mm.min + starts.y_mm.max) / 2;
   json["insertions"] = Json::array();
   for (const double theta : spread(starts.theta_rad)) {
-    for (const double x : spread(starts.x_mm)) json["insertions"].push_back(insertion_json(scene->task, x, y, theta));
+    for (const double x : spread(starts.x_mm))
+      json["insertions"].push_back(insertion_json(scene->task, names, x, y, theta));
   }
   json["never"] = Json::array();
   for (const NeverResult& result : evaluation.never) {
@@ -200,9 +208,10 @@ Json joint_json(const AssemblyProblem& problem, int topology, std::span<const do
                              {"starts", result.starts},
                              {"why", result.why},
                              {"mirrored", result.aspect == "down"},
-                             {"insertion", insertion_json(wrong->task, start.x_mm, start.y_mm, start.theta_rad)}});
+                             {"insertion", insertion_json(wrong->task, names_of(joint, result.aspect, joint.centre_mm),
+                                                          start.x_mm, start.y_mm, start.theta_rad)}});
   }
-  json["space"] = with_space ? space_json(*scene) : Json(nullptr);
+  json["space"] = with_space ? space_json(*scene, names) : Json(nullptr);
   return json;
 }
 

@@ -1,6 +1,7 @@
 #include <sstream>
 
 #include "analysis/geometry/offset.hpp"
+#include "io/feeder_json.hpp"
 #include "verify/checks.hpp"
 #include "verify/perturbation.hpp"
 
@@ -89,7 +90,9 @@ class Perturbed {
   }
 
   void fail(const Layout& layout, const std::string& what) {
-    if (check_.holds) check_.design = literal_features(layout);
+    if (check_.holds) {
+      if (const auto literal = literal_features(layout)) check_.design = {{"features", features_json(*literal)}};
+    }
     check_.fail(what);
     ++failures_;
   }

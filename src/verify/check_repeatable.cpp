@@ -22,14 +22,14 @@ std::string listed(const std::vector<double>& numbers) {
 
 }  // namespace
 
-Check check_repeatable(const TestedDesign& design, bool same_program) {
+Check check_repeatable(const Problem& problem, const Evaluated& evaluated, bool same_program) {
   Check check{"repeatable"};
   check.unit = "numbers";
   if (!same_program) {
     check.note = "scored by another version of the program";
     return check;
   }
-  const Score &stored = design.stored.score, again = design.problem.score(design.stored.candidate);
+  const Score &stored = evaluated.score, again = problem.score(evaluated.candidate);
   check.count = static_cast<std::int64_t>(2 + stored.objectives.size() + stored.worst_case.size());
   if (again.feasible != stored.feasible) {
     check.fail(std::string("stored as ") + (stored.feasible ? "feasible" : "infeasible") + ", which it is not");

@@ -2,15 +2,24 @@
 #pragma once
 
 #include "verify/tested_design.hpp"
+#include "verify/tested_joint.hpp"
 #include "verify/verification.hpp"
 
 namespace formotion {
 
+Check check_repeatable(const Problem& problem, const Evaluated& stored, bool same_program);
+
+// Feeders.
 Check check_exact(const TestedDesign& design);
 Check check_drawn(const TestedDesign& design);
 Check check_finer(const TestedDesign& design);
 Check check_perturbed(const TestedDesign& design, const VerifyOptions& options);
 Check check_starts(const TestedDesign& design);
-Check check_repeatable(const TestedDesign& design, bool same_program);
+
+// Assemblies.
+Check check_drawn(const TestedJoint& joint);
+Check check_finer(const TestedJoint& joint);
+Check check_perturbed(const TestedJoint& joint, const VerifyOptions& options);
+Check check_starts(const TestedJoint& joint, const VerifyOptions& options);
 
 }  // namespace formotion

@@ -112,4 +112,9 @@ std::optional<Layout> perturbed(const Layout& plain, const Environment& environm
   return layout;
 }
 
+Loop perturbed(Loop loop, double most_mm, RandomStream& random) {
+  move_corners(loop, true, most_mm, random);
+  return loop;
+}
+
 }  // namespace formotion

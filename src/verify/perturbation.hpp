@@ -18,4 +18,7 @@ struct PerturbationOptions {
 std::optional<feeder::Layout> perturbed(const feeder::Layout& plain, const feeder::Environment& environment,
                                         const PerturbationOptions& options, RandomStream& random);
 
+// A closed line with its corners moved so.
+Loop perturbed(Loop loop, double most_mm, RandomStream& random);
+
 }  // namespace formotion

@@ -1,24 +1,53 @@
 #include "verify/verification.hpp"
 
+#include <memory>
 #include <sstream>
 
 #include "verify/checks.hpp"
 
 namespace formotion {
 
+namespace {
+
+template <class ProblemOfKind, class Spec>
+Verifier verifier(const Spec& spec) {
+  const auto problem = std::make_shared<const ProblemOfKind>(spec);
+  return [problem](const Evaluated& stored, bool same_program, const VerifyOptions& options) {
+    return verify_design(*problem, stored, same_program, options);
+  };
+}
+
+}  // namespace
+
+Verifier verifier_of(const ProblemFile& file) {
+  return file.assembly ? verifier<assembly::AssemblyProblem>(*file.assembly)
+                       : verifier<feeder::FeederProblem>(file.feeder);
+}
+
 Verification verify_design(const feeder::FeederProblem& problem, const Evaluated& stored, bool same_program,
                            const VerifyOptions& options) {
   const TestedDesign design = tested_design(problem, stored);
   Verification result{design_id(stored)};
-  result.checks.push_back(check_repeatable(design, same_program));
-  if (design.layout.invalid.empty()) {  // else there is no track
-    result.checks.push_back(check_exact(design));
-    result.checks.push_back(check_drawn(design));
-    result.checks.push_back(check_finer(design));
-    result.checks.push_back(check_perturbed(design, options));
-    result.checks.push_back(check_starts(design));
-  }
-  for (const Check& check : result.checks) result.holds = result.holds && check.holds;
+  result.add(check_repeatable(problem, stored, same_program));
+  if (!design.layout.invalid.empty()) return result;  // there is no track
+  result.add(check_exact(design));
+  result.add(check_drawn(design));
+  result.add(check_finer(design));
+  result.add(check_perturbed(design, options));
+  result.add(check_starts(design));
+  return result;
+}
+
+Verification verify_design(const assembly::AssemblyProblem& problem, const Evaluated& stored, bool same_program,
+                           const VerifyOptions& options) {
+  const TestedJoint joint = tested_joint(problem, stored);
+  Verification result{design_id(stored)};
+  result.add(check_repeatable(problem, stored, same_program));
+  if (joint.evaluation.regions.empty()) return result;  // shapes that are not valid
+  result.add(check_drawn(joint));
+  result.add(check_finer(joint));
+  result.add(check_perturbed(joint, options));
+  result.add(check_starts(joint, options));
   return result;
 }
 

@@ -1,24 +1,22 @@
 #include "verify/verification_json.hpp"
 
-#include "io/feeder_json.hpp"
-
 namespace formotion {
 
-OrderedJson verification_json(const Verification& verification, const VerifyOptions& options,
-                              const std::string& program_version) {
-  OrderedJson json{{"id", verification.id},
-                   {"holds", verification.holds},
-                   {"program", "formotion " + program_version},
-                   {"perturbations", options.perturbations},
-                   {"seed", options.seed}};
-  json["checks"] = OrderedJson::array();
+nlohmann::ordered_json verification_json(const Verification& verification, const VerifyOptions& options,
+                                         const std::string& program_version) {
+  nlohmann::ordered_json json{{"id", verification.id},
+                              {"holds", verification.holds},
+                              {"program", "formotion " + program_version},
+                              {"perturbations", options.perturbations},
+                              {"seed", options.seed}};
+  json["checks"] = nlohmann::ordered_json::array();
   for (const Check& check : verification.checks) {
-    OrderedJson one{{"name", check.name},   {"holds", check.holds},     {"says", says(check)},
-                    {"count", check.count}, {"skipped", check.skipped}, {"unit", check.unit}};
-    one["worst"] = check.worst ? OrderedJson(*check.worst) : OrderedJson(nullptr);
+    nlohmann::ordered_json one{{"name", check.name},   {"holds", check.holds},     {"says", says(check)},
+                               {"count", check.count}, {"skipped", check.skipped}, {"unit", check.unit}};
+    one["worst"] = check.worst ? nlohmann::ordered_json(*check.worst) : nlohmann::ordered_json(nullptr);
     one["worst_of"] = check.worst_of;
     one["note"] = check.note;
-    if (check.design) one["design"] = {{"features", features_json(*check.design)}};
+    if (check.design) one["design"] = *check.design;
     json["checks"].push_back(std::move(one));
   }
   return json;

@@ -90,11 +90,3 @@ TEST_CASE("runs of assemblies give the same bytes on every number of threads and
           read_file(folder / "one/designs/" + id + "." + format));
   }
 }
-
-TEST_CASE("what assemblies do not have yet is refused in one line") {
-  const Said said = run({"query", assembly("peg_and_chamfer")});
-  CHECK(said.code == 2);
-  CHECK(said.out.empty());
-  CHECK(said.err.rfind("error: ", 0) == 0);
-  CHECK(said.err.find("/kind") != std::string::npos);
-}

@@ -66,13 +66,17 @@ AssemblyEvaluation AssemblyProblem::evaluate(int topology, std::span<const doubl
   return judge(model_->spec, topology, values, true).evaluation;
 }
 
+std::vector<Violation> AssemblyProblem::defects(int topology, std::span<const double> values) const {
+  return assembly::defects(model_->spec, topology, values);
+}
+
 Joint AssemblyProblem::joint(int topology, std::span<const double> values) const {
   return joint_of(model_->spec, topology, values);
 }
 
 std::unique_ptr<Scene> AssemblyProblem::scene(int topology, std::span<const double> values, const std::string& aspect,
                                               double orientation_rad) const {
-  if (!defects(model_->spec, topology, values).empty()) throw std::logic_error("a scene of shapes that are not valid");
+  if (!defects(topology, values).empty()) throw std::logic_error("a scene of shapes that are not valid");
   return scene_of(model_->spec, topology, values, aspect, orientation_rad);
 }
 

@@ -18,6 +18,13 @@ struct Joint {
   Polygon part;                // as drawn, aspect "up"
   std::vector<Loop> fixed_mm;  // as written
   Point centre_mm;             // compliance centre of the drawn part
+  Point com_mm;                // its centre of mass
+  std::vector<Loop> part_mm;   // as written: the outline, then the holes
+
+  // A point of the drawn part as the part has it, relative to another one of it, in an aspect ("down" is mirrored).
+  static Point held(const Point& p, const Point& about, const std::string& aspect) {
+    return aspect == "down" ? Point(about.x() - p.x(), p.y() - about.y()) : Point(p - about);
+  }
 };
 
 // Everything that insert() wants, owned; not to be moved or copied.
@@ -43,6 +50,8 @@ class AssemblyProblem final : public Problem {
 
   // Below, values are of all the problem's variables, in order.
   AssemblyEvaluation evaluate(int topology, std::span<const double> values) const;
+  // Why the shapes of a design cannot be used; empty if they can.
+  std::vector<Violation> defects(int topology, std::span<const double> values) const;
   Joint joint(int topology, std::span<const double> values) const;
   // The scene with the part held in an aspect ("up", "down"), turned by orientation_rad. Throws std::logic_error for
   // shapes that are not valid (evaluate says so as a violation).

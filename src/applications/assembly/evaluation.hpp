@@ -7,6 +7,7 @@
 
 #include "analysis/insertion/insertion.hpp"
 #include "analysis/insertion/success_region.hpp"
+#include "applications/assembly/spec.hpp"
 
 namespace formotion::assembly {
 
@@ -31,6 +32,7 @@ struct StartResult {
 struct NeverResult {
   std::string aspect;
   double orientation_rad = 0;
+  StartsSpec box;                  // of its starts
   bool holds = false;              // no start that was projected reaches the goal's depth
   bool proved = false;             // no start can, by free space alone (exclusion.hpp)
   std::optional<double> bound_mm;  // the depth that cannot be exceeded, where proved

@@ -133,6 +133,7 @@ class DesignJudge {
     const StartsSpec& starts = goal.starts ? *goal.starts : spec_.goal.starts;
     NeverResult result;
     result.orientation_rad = goal.orientation_rad;
+    result.box = starts;
     const std::vector<StartResult> ends = grid(scene.task, starts, in_detail_ ? 9 : 3);
     result.starts = static_cast<int>(ends.size());
     work_ += result.starts;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "analysis/geometry/boolean.hpp"
 #include "applications/assembly/judge.hpp"
 
 namespace formotion::assembly {
@@ -46,10 +47,12 @@ Joint joint_of(const AssemblySpec& spec, int topology, std::span<const double> v
   Joint joint;
   joint.part.outer = at(spec.part.outline_mm, values);
   for (const AffineLoop& hole : spec.part.holes_mm) joint.part.holes.push_back(at(hole, values));
+  joint.part_mm = loops_of(joint.part);
   joint.part = normalised(std::move(joint.part));
   for (const AffineLoop& loop : spec.designs[topology].fixed_mm) joint.fixed_mm.push_back(at(loop, values));
   joint.centre_mm =
       spec.support.centre_is_centroid ? area_moments(joint.part).centroid : at(spec.support.centre_mm, values);
+  joint.com_mm = spec.part.com_mm.value_or(area_moments(joint.part).centroid);
   return joint;
 }
 
@@ -75,10 +78,7 @@ std::unique_ptr<Scene> scene_of(const AssemblySpec& spec, int topology, std::spa
   const Point centre = joint.centre_mm + member.centre_off_mm;
   Polygon body = joint.part;
   const auto place = [&](Loop& loop) {
-    for (Point& p : loop) {
-      p -= centre;
-      if (aspect == "down") p.x() = -p.x();
-    }
+    for (Point& p : loop) p = Joint::held(p, centre, aspect);
   };
   place(body.outer);
   for (Loop& hole : body.holes) place(hole);

@@ -18,6 +18,7 @@ struct PartSpec {
   AffineLoop outline_mm;
   std::vector<AffineLoop> holes_mm;
   bool flips = false;
+  std::optional<Point> com_mm = {};  // default: the outline's centroid; what configurations of queries are given for
   std::optional<double> thickness_mm = {};  // of what is printed, too; no motion depends on it
 };
 

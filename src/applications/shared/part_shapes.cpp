@@ -76,6 +76,21 @@ std::vector<AspectShape> aspect_shapes(const PartSpec& part, std::span<const dou
   return shapes;
 }
 
+std::vector<Loop> written_loops(const AspectSpec& spec, const AspectShape& shape, std::span<const double> values) {
+  std::vector<Loop> loops;
+  const auto add = [&](const AffineLoop& outline, const std::vector<AffineLoop>& holes) {
+    loops.push_back(evaluated(outline, values));
+    for (const AffineLoop& hole : holes) loops.push_back(evaluated(hole, values));
+  };
+  if (spec.layers.empty()) add(spec.outline_mm, spec.holes_mm);
+  for (const LayerSpec& layer : spec.layers) add(layer.outline_mm, layer.holes_mm);
+  const Point com = bounding_box(loops.front()).min - bounding_box(shape.bodies.front().outer).min;
+  for (Loop& loop : loops) {
+    for (Point& p : loop) p -= com;
+  }
+  return loops;
+}
+
 Loop all_corners(const AspectShape& shape) {
   Loop corners;
   for (const Polygon& body : shape.bodies) corners.insert(corners.end(), body.outer.begin(), body.outer.end());

@@ -22,6 +22,8 @@ bool is_literal(const PartSpec& part);
 Loop evaluated(const AffineLoop& loop, std::span<const double> values);
 Polygon evaluated(const AffineLoop& outline, const std::vector<AffineLoop>& holes, std::span<const double> values);
 std::vector<AspectShape> aspect_shapes(const PartSpec& part, std::span<const double> values);
+// All loops of an aspect in the order in which their corners are numbered, as written, about its centre of mass.
+std::vector<Loop> written_loops(const AspectSpec& spec, const AspectShape& shape, std::span<const double> values);
 Loop all_corners(const AspectShape& shape);
 // The greatest k for which all bodies map onto themselves when turned by 2 pi / k about the centre of mass.
 int rotational_order(const AspectShape& shape);
