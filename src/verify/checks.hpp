@@ -3,6 +3,7 @@
 
 #include "verify/tested_design.hpp"
 #include "verify/tested_joint.hpp"
+#include "verify/tested_nest.hpp"
 #include "verify/verification.hpp"
 
 namespace formotion {
@@ -21,5 +22,11 @@ Check check_drawn(const TestedJoint& joint);
 Check check_finer(const TestedJoint& joint);
 Check check_perturbed(const TestedJoint& joint, const VerifyOptions& options);
 Check check_starts(const TestedJoint& joint, const VerifyOptions& options);
+
+// Fixtures and pallets.
+Check check_drawn(const TestedNest& nest);
+Check check_finer(const TestedNest& nest);
+Check check_perturbed(const TestedNest& nest, const VerifyOptions& options);
+Check check_shaken(const TestedNest& nest, const VerifyOptions& options);
 
 }  // namespace formotion

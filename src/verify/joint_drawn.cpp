@@ -4,11 +4,11 @@
 
 #include "analysis/geometry/boolean.hpp"
 #include "applications/assembly/judge.hpp"
-#include "io/dxf_import.hpp"
 #include "io/problem_reader.hpp"
 #include "report/joint_drawing.hpp"
 #include "report/joint_outline.hpp"
 #include "verify/checks.hpp"
+#include "verify/drawn_shapes.hpp"
 
 namespace formotion {
 namespace {
@@ -17,41 +17,6 @@ using namespace assembly;
 
 constexpr double kShapesAgree_mm = 1e-6;
 constexpr double kScoresAgree = 1e-3;  // of the larger of 1 and the value: what a start decides may turn with a bit
-
-// How far corners of the one are from the other's edges.
-double away_mm(const std::vector<Loop>& corners_of, const std::vector<Loop>& edges_of) {
-  double away = 0;
-  for (const Loop& loop : corners_of) {
-    for (const Point& p : loop) {
-      double nearest = 1e300;
-      for (const Loop& other : edges_of) {
-        for (std::size_t i = 0; i < other.size(); ++i)
-          nearest = std::min(nearest, distance_to_segment(p, other[i], other[(i + 1) % other.size()]));
-      }
-      away = std::max(away, nearest);
-    }
-  }
-  return away;
-}
-
-double apart_mm(const std::vector<Loop>& a, const std::vector<Loop>& b) {
-  return std::max(away_mm(a, b), away_mm(b, a));
-}
-
-struct ReadBack {
-  std::vector<Loop> fixed, part;  // of the part: the outline first
-};
-
-ReadBack read_back(const std::string& dxf) {
-  DxfOptions options;
-  options.layers = {"FIXED", "PART"};
-  ReadBack read;
-  for (DxfContour& contour : parse_dxf(dxf, "the drawing", options))
-    (contour.layer == "FIXED" ? read.fixed : read.part).push_back(std::move(contour.points_mm));
-  std::stable_sort(read.part.begin(), read.part.end(),
-                   [](const Loop& a, const Loop& b) { return std::abs(signed_area(a)) > std::abs(signed_area(b)); });
-  return read;
-}
 
 }  // namespace
 
@@ -72,7 +37,7 @@ Check check_drawn(const TestedJoint& tested) {
   drawing.approach_rad = asked.approach.direction_rad;
   drawing.depth_mm = asked.goal.depth_mm;
   try {
-    const ReadBack read = read_back(joint_dxf(drawing));
+    const DrawnShapes read = read_back(joint_dxf(drawing));
     check.count = static_cast<std::int64_t>(read.fixed.size() + read.part.size());
     if (read.fixed.size() != pieces.size() || read.part.size() != 1 + joint.part.holes.size()) {
       check.fail("the drawing has " + std::to_string(check.count) + " contours");

@@ -21,6 +21,7 @@ Verifier verifier(const Spec& spec) {
 
 Verifier verifier_of(const ProblemFile& file) {
   return file.assembly ? verifier<assembly::AssemblyProblem>(*file.assembly)
+         : file.nest   ? verifier<nest::NestProblem>(*file.nest)
                        : verifier<feeder::FeederProblem>(file.feeder);
 }
 
@@ -48,6 +49,22 @@ Verification verify_design(const assembly::AssemblyProblem& problem, const Evalu
   result.add(check_finer(joint));
   result.add(check_perturbed(joint, options));
   result.add(check_starts(joint, options));
+  return result;
+}
+
+Verification verify_design(const nest::NestProblem& problem, const Evaluated& stored, bool same_program,
+                           const VerifyOptions& options) {
+  const int topology = stored.candidate.topology;
+  std::vector<double> values = all_values(problem, stored.candidate);
+  nest::NestEvaluation evaluation = problem.evaluate(topology, values);
+  const TestedNest tested{problem, stored, topology, std::move(values), std::move(evaluation)};
+  Verification result{design_id(stored)};
+  result.add(check_repeatable(problem, stored, same_program));
+  if (tested.evaluation.rests.empty()) return result;  // shapes that are not valid, or that hold nothing
+  result.add(check_drawn(tested));
+  result.add(check_finer(tested));
+  result.add(check_perturbed(tested, options));
+  if (problem.spec().environment.table) result.add(check_shaken(tested, options));
   return result;
 }
 

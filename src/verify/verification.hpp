@@ -11,6 +11,7 @@
 
 #include "applications/assembly/assembly_problem.hpp"
 #include "applications/feeder/feeder_problem.hpp"
+#include "applications/nest/nest_problem.hpp"
 #include "io/problem_file.hpp"
 #include "optimize/evaluated.hpp"
 
@@ -22,7 +23,7 @@ struct VerifyOptions {
 };
 
 struct Check {
-  std::string name;  // "exact", "drawn", "finer", "perturbed", "starts", "repeatable"
+  std::string name;  // "exact", "drawn", "finer", "perturbed", "starts", "shaken", "repeatable"
   bool holds = true;
   std::int64_t count = 0;    // what was looked at
   std::string unit = {};     // in words: "positions"
@@ -60,6 +61,8 @@ Verifier verifier_of(const ProblemFile& file);
 Verification verify_design(const feeder::FeederProblem& problem, const Evaluated& stored, bool same_program,
                            const VerifyOptions& options = {});
 Verification verify_design(const assembly::AssemblyProblem& problem, const Evaluated& stored, bool same_program,
+                           const VerifyOptions& options = {});
+Verification verify_design(const nest::NestProblem& problem, const Evaluated& stored, bool same_program,
                            const VerifyOptions& options = {});
 
 // One sentence about a check: what was looked at, or how it fails.
