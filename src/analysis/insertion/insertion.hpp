@@ -67,6 +67,7 @@ struct InsertionMoment {
   double axial_n = 0, lateral_n = 0;     // of the support on the part: along the approach, across (to its left)
   double moment_nmm = 0;                 // about the compliance centre
   std::string event;                     // "start", "touches", ...; empty between events
+  bool is_snap = false;                  // the part moves while the carrier stands: forces are not in balance
   std::vector<CarriedContact> contacts;  // that carry
 };
 

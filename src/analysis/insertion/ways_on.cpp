@@ -10,11 +10,25 @@ namespace formotion {
 namespace {
 
 constexpr double kContinuous_mm = 5e-3;  // the part's way in a look-ahead: more is a snap
+constexpr double kJump_mm = 1e-7;        // the same: less is none
 constexpr double kOverlap_mm = 1e-9;     // of contacts that do not carry, in a look-ahead
 constexpr double kSameWay_mm = 1e-9;     // between continuations, in a look-ahead
 constexpr std::size_t kMostTouches = 6;  // 4^k modes
 
 constexpr ContactMode kModes[]{ContactMode::SlideLeft, ContactMode::SlideRight, ContactMode::Stick};
+
+// By the motion's own size: the law's tolerance is one of forces, and where they all but balance the motion is small.
+bool does_as_modes_say(const std::vector<ContactPoint>& points, const Motion& motion, double slow) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double slip = sliding_speed(points[i], motion.twist);
+    const bool is_against =
+        (motion.modes[i] == ContactMode::SlideLeft && slip < -slow) ||
+        (motion.modes[i] == ContactMode::SlideRight && slip > slow) ||
+        (motion.modes[i] == ContactMode::Break && separation_speed(points[i], motion.twist) < -slow);
+    if (is_against) return false;
+  }
+  return true;
+}
 
 // Visits every choice of one touch a cluster.
 template <class Visit>
@@ -93,22 +107,37 @@ void WaysOn::try_choice(const Configuration& q, const std::vector<TouchCluster>&
     for (const int digit : digits) modes.push_back(kModes[digit]);
     const auto sticking = std::count(modes.begin(), modes.end(), ContactMode::Stick);
     if (static_cast<long>(pairs.size()) + sticking <= 2) {
-      CompliantLeg leg(space_, stiffness_, friction_, line, pairs, modes, q);
-      const Configuration next = leg.at(ahead);
-      const bool continuous = std::isfinite(next.x_mm) && chord(next, q, space_.part.reach_mm) < kContinuous_mm;
-      if (continuous) {
-        const double reserve = leg.reserve(ahead);
-        if (reserve >= -kLegReserve && stays_free(clusters, chosen, next)) {
-          leg.restart(ahead);
-          found.push_back({std::move(leg), next, reserve});
-        }
-      }
-      solves += leg.solves();
+      try_leg(q, clusters, chosen, pairs, modes, line, ahead, found, solves);
     }
     std::size_t i = 0;
     while (i < digits.size() && ++digits[i] == mode_count) digits[i++] = 0;
     if (i == digits.size()) return;
   }
+}
+
+void WaysOn::try_leg(const Configuration& q, const std::vector<TouchCluster>& clusters, const std::vector<int>& chosen,
+                     const std::vector<ContactPair>& pairs, const std::vector<ContactMode>& modes,
+                     const CarrierLine& line, double ahead, std::vector<Continuation>& found, int& solves) const {
+  CompliantLeg leg(space_, stiffness_, friction_, line, pairs, modes, q);
+  const Configuration next = leg.at(ahead);
+  const double reach = space_.part.reach_mm, moved = std::isfinite(next.x_mm) ? chord(next, q, reach) : kContinuous_mm;
+  // A way that goes on smoothly goes about as far as its rate there says, one that begins as a square root twice as
+  // far.
+  bool jumps = true;
+  if (moved < kContinuous_mm) {
+    const Twist rate = leg.rate(ahead, next);
+    jumps = moved > kJump_mm + 2.2 * ahead * std::hypot(rate.linear.x(), rate.linear.y(), reach * rate.angular);
+  }
+  if (!jumps) {
+    const double reserve = leg.reserve(ahead);
+    if (reserve >= -kLegReserve && stays_free(clusters, chosen, next)) {
+      leg.restart(ahead);
+      solves += leg.solves();
+      found.push_back({std::move(leg), next, reserve});
+      return;
+    }
+  }
+  solves += leg.solves();
 }
 
 bool WaysOn::stays_free(const std::vector<TouchCluster>& clusters, const std::vector<int>& chosen,
@@ -126,20 +155,84 @@ bool WaysOn::stays_free(const std::vector<TouchCluster>& clusters, const std::ve
   return true;
 }
 
-std::vector<Eigen::Vector3d> WaysOn::first_motions(const Configuration& q, const Eigen::Vector3d& carrier) const {
+std::vector<FirstMotion> WaysOn::first_motions(const Configuration& q, const Eigen::Vector3d& carrier) const {
   const MotionLaw pulled = law(q, carrier);
-  std::vector<Eigen::Vector3d> found;
-  for_alternatives(touches_at(space_, q), [&](const std::vector<ContactPoint>& points, const auto&) {
+  std::vector<FirstMotion> exact, all;
+  const auto add = [&](std::vector<FirstMotion>& found, const FirstMotion& motion) {
+    const double size = scaled_size(motion.velocity);
+    for (FirstMotion& known : found) {
+      const double other = scaled_size(known.velocity), apart = scaled_size(known.velocity - motion.velocity);
+      // About a corner that rolls friction may be anything, and the speed with it: the fastest stands for them.
+      const bool rolls =
+          known.pairs == motion.pairs && scaled_size(known.velocity / other - motion.velocity / size) < 1e-6;
+      if (apart >= 1e-6 * size && !rolls) continue;
+      if (rolls && size > other) known = motion;
+      return;
+    }
+    found.push_back(motion);
+  };
+  const auto add_all = [&](const std::vector<ContactPoint>& points, const std::vector<ContactPair>& pairs) {
     for (const Motion& motion : consistent_motions(points, pulled)) {
       if (motion.at_rest()) continue;
-      const Eigen::Vector3d v(motion.twist.linear.x(), motion.twist.linear.y(), motion.twist.angular);
-      if (scaled_size(v) < 1e-9) continue;
-      if (std::none_of(found.begin(), found.end(),
-                       [&](const auto& known) { return scaled_size(known - v) < 1e-6 * scaled_size(v); }))
-        found.push_back(v);
+      FirstMotion first{{motion.twist.linear.x(), motion.twist.linear.y(), motion.twist.angular}, {}, {}};
+      const double size = scaled_size(first.velocity);
+      if (size < 1e-9) continue;
+      for (std::size_t i = 0; i < pairs.size(); ++i) {
+        if (motion.modes[i] == ContactMode::Break) continue;
+        first.pairs.push_back(pairs[i]);
+        first.modes.push_back(motion.modes[i]);
+      }
+      add(all, first);
+      if (does_as_modes_say(points, motion, 1e-6 * size)) add(exact, first);
+    }
+  };
+  for_alternatives(touches_at(space_, q), add_all);
+  return exact.empty() ? all : exact;
+}
+
+std::optional<Continuation> WaysOn::continued(const Configuration& q, const FirstMotion& motion,
+                                              const CarrierLine& line, double ahead, int& solves) const {
+  const std::vector<TouchCluster> clusters = touches_at(space_, q);
+  std::vector<int> chosen(clusters.size(), -1);
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    for (std::size_t k = 0; k < clusters[i].size(); ++k) {
+      if (std::find(motion.pairs.begin(), motion.pairs.end(), clusters[i][k].pair) != motion.pairs.end())
+        chosen[i] = static_cast<int>(k);
+    }
+  }
+  std::vector<Continuation> found;
+  try_leg(q, clusters, chosen, motion.pairs, motion.modes, line, ahead, found, solves);
+  if (found.empty()) return std::nullopt;
+  return std::move(found.front());
+}
+
+// K (from + h way - q) + a e + b f = 0 with a, b not negative: linear in h, a and b (derived). With two contacts that
+// stick the forces at rest are an interval for every h; a way on begins only where one of its ends is such a pair.
+std::vector<double> WaysOn::ways_off_rest(const Configuration& q, const CarrierLine& line, double far) const {
+  const Eigen::Vector3d load = spring_load(stiffness_, line.from, q), pull = stiffness_.cwiseProduct(line.way);
+  const Eigen::Vector3d scale(1, 1, 1 / space_.part.gyration_mm);
+  std::vector<double> places;
+  for_alternatives(touches_at(space_, q), [&](const std::vector<ContactPoint>& points, const auto&) {
+    std::vector<Eigen::Vector3d> edges;
+    for (const ContactPoint& point : points) {
+      for (const double side : {-1.0, 1.0}) {
+        const Point f = point.normal + side * friction_ * turned_left(point.normal);
+        edges.emplace_back(f.x(), f.y(), cross(point.lever, f));
+      }
+    }
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      for (std::size_t k = i + 1; k < edges.size(); ++k) {
+        Eigen::Matrix3d columns;
+        columns << scale.cwiseProduct(pull), scale.cwiseProduct(edges[i]), scale.cwiseProduct(edges[k]);
+        const Eigen::FullPivLU<Eigen::Matrix3d> lu(columns);
+        if (!lu.isInvertible()) continue;
+        const Eigen::Vector3d at = lu.solve(-scale.cwiseProduct(load));
+        if (at[0] > 0 && at[0] < far && at[1] >= 0 && at[2] >= 0) places.push_back(at[0]);
+      }
     }
   });
-  return found;
+  std::sort(places.begin(), places.end());
+  return places;
 }
 
 std::optional<std::vector<CarriedContact>> WaysOn::held(const Configuration& q, const Eigen::Vector3d& carrier) const {

@@ -17,6 +17,13 @@ struct Continuation {
   double reserve = 0;
 };
 
+// How a snap may begin: a velocity (mm, rad) and what carries meanwhile.
+struct FirstMotion {
+  Eigen::Vector3d velocity;
+  std::vector<ContactPair> pairs;
+  std::vector<ContactMode> modes;
+};
+
 // Reserves below minus this end a mode.
 inline constexpr double kLegReserve = 2e-9;
 
@@ -31,16 +38,29 @@ class WaysOn {
   std::vector<Continuation> continuous(const Configuration& q, const CarrierLine& line, double ahead,
                                        int& solves) const;
 
-  // The motions of a part at q that its contacts leave it under the spring's pull, damped as it is stiff (D = 1 / K):
-  // velocities in mm, rad. Rest is none of them.
-  std::vector<Eigen::Vector3d> first_motions(const Configuration& q, const Eigen::Vector3d& carrier) const;
+  // The motions of a part at q that its contacts leave it under the spring's pull, damped as it is stiff (D = 1 / K).
+  // Rest is none of them.
+  std::vector<FirstMotion> first_motions(const Configuration& q, const Eigen::Vector3d& carrier) const;
+
+  // Places h in (0, far), ascending, of the carrier on its line at which a part that rests at q may begin to move
+  // without a jump: there the spring is held by two edges of friction cones alone, those of one contact (the part
+  // turns about it) or of two (it slides on both).
+  std::vector<double> ways_off_rest(const Configuration& q, const CarrierLine& line, double far) const;
 
   // Forces that hold the part at q against the spring, on all that touches; none if no forces can.
   std::optional<std::vector<CarriedContact>> held(const Configuration& q, const Eigen::Vector3d& carrier) const;
 
+  // The leg of a first motion, with the contacts that carry in it; none if it is not continuous when the carrier goes
+  // on along the line, or not consistent.
+  std::optional<Continuation> continued(const Configuration& q, const FirstMotion& motion, const CarrierLine& line,
+                                        double ahead, int& solves) const;
+
  private:
   void try_choice(const Configuration& q, const std::vector<TouchCluster>& clusters, const std::vector<int>& chosen,
                   const CarrierLine& line, double ahead, std::vector<Continuation>& found, int& solves) const;
+  void try_leg(const Configuration& q, const std::vector<TouchCluster>& clusters, const std::vector<int>& chosen,
+               const std::vector<ContactPair>& pairs, const std::vector<ContactMode>& modes, const CarrierLine& line,
+               double ahead, std::vector<Continuation>& found, int& solves) const;
   bool stays_free(const std::vector<TouchCluster>& clusters, const std::vector<int>& chosen,
                   const Configuration& next) const;
   MotionLaw law(const Configuration& q, const Eigen::Vector3d& carrier) const;

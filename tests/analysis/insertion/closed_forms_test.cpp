@@ -33,7 +33,7 @@ double slope_work(const PointOnSlope& joint) {
 }
 
 // In a snap the carrier's real force is not in balance with the contacts.
-bool snaps(const InsertionMoment& moment) { return moment.event.find("snap") != std::string::npos; }
+bool snaps(const InsertionMoment& moment) { return moment.is_snap; }
 
 }  // namespace
 
@@ -221,7 +221,7 @@ TEST_CASE("Where a peg wedges the line between two of its contacts is in both fr
 
 TEST_CASE("Forces balance and Coulomb's law holds at every instant of random insertions") {
   Random random(11);
-  int carrying = 0, moments = 0, rough = 0;
+  int carrying = 0;
   for (int i = 0; i < 60; ++i) {
     const SteppingScene scene = random_joint(random);
     const JointTask made(scene);
@@ -249,16 +249,10 @@ TEST_CASE("Forces balance and Coulomb's law holds at every instant of random ins
         ++carrying;
       }
       CAPTURE(i, moment.event, moment.travel_mm, sum.norm());
-      // Where a leg begins the part may be short of it by what counts as continuous, 5e-3 mm; this is rare.
-      const Stiffness& k = scene.stiffness;
-      const double jump = 5e-3 * (k.kx_n_per_mm + k.ky_n_per_mm + k.ktheta_nmm_per_rad / made.part.reach_mm);
-      CHECK(sum.norm() <= 1e-6 * size + (moment.event == "moves" ? jump : 0));
-      ++moments;
-      rough += sum.norm() > 1e-6 * size;
+      CHECK(sum.norm() <= 1e-6 * size);
     }
   }
   CHECK(carrying > 200);
-  CHECK(rough * 50 < moments);
 }
 
 TEST_CASE("A mirrored and a turned world have the same insertion") {
