@@ -38,7 +38,7 @@ TEST_CASE("a block let go over a vee comes to rest in it from every start of the
 }
 
 TEST_CASE("escape heights of a pallet are brackets and its selectivity is their difference") {
-  const Json answer = evaluated(problem("pallet", "tee_in_a_pocket"));
+  const Json answer = evaluated(problem("pallet", "tee_in_a_slot"));
   CHECK(answer["kind"] == "pallet");
   const Json& metrics = answer["metrics"];
   double goal = 0, wrong = 0;
