@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "analysis/contact/free_slice.hpp"
+#include "applications/shared/starts.hpp"
 #include "io/assembly_json.hpp"
 
 namespace formotion {
@@ -31,7 +32,7 @@ Json loop(const Loop& points, const Point& minus = Point::Zero()) {
   for (const Point& p : points) json.push_back(point(p - minus));
   return json;
 }
-Json interval(const Interval& i, double per = 1) { return {mm(i.min * per), mm(i.max * per)}; }
+Json interval(const ErrorInterval& i, double per = 1) { return {mm(i.min * per), mm(i.max * per)}; }
 
 // place: where the two touch with the part at q.
 Json pair_json(const ContactSpace& space, const WrittenNames& names, const ContactPair& pair, const Configuration& q,
@@ -138,13 +139,6 @@ Json space_json(const Scene& scene, const WrittenNames& names) {
   return json;
 }
 
-std::vector<double> spread(const Interval& i) {
-  if (i.is_single()) return {i.min};
-  std::vector<double> values;
-  for (int k = 0; k < kGrid; ++k) values.push_back(i.min + k * (i.max - i.min) / (kGrid - 1));
-  return values;
-}
-
 }  // namespace
 
 Json asked_json(const AssemblySpec& spec, std::span<const double> values) {
@@ -190,8 +184,8 @@ Json joint_json(const AssemblyProblem& problem, int topology, std::span<const do
   const StartsSpec& starts = problem.spec().goal.starts;
   const double y = (starts.y_mm.min + starts.y_mm.max) / 2;
   json["insertions"] = Json::array();
-  for (const double theta : spread(starts.theta_rad)) {
-    for (const double x : spread(starts.x_mm))
+  for (const double theta : values_of(starts.theta_rad, kGrid)) {
+    for (const double x : values_of(starts.x_mm, kGrid))
       json["insertions"].push_back(insertion_json(scene->task, names, x, y, theta));
   }
   json["never"] = Json::array();

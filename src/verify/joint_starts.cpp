@@ -127,7 +127,7 @@ class Starts {
       return;  // a single start, which the rows have
     }
     if (!(share > 0)) return;
-    const auto at = [&](const assembly::Interval& interval, double place) {
+    const auto at = [&](const ErrorInterval& interval, double place) {
       return (interval.min + interval.max) / 2 + share * (place - 0.5) * (interval.max - interval.min);
     };
     const int across = starts.x_mm.is_single() ? 1 : kSide, turned = starts.theta_rad.is_single() ? 1 : kSide;
@@ -158,7 +158,7 @@ class Starts {
                     number_text(found.deepest_mm) + " mm deep, where " + number_text(limit_mm) + " mm is the limit");
     };
     const StartsSpec& box = wrong.box;
-    const auto side = [](const assembly::Interval& interval) { return interval.is_single() ? 1 : kWrongSide; };
+    const auto side = [](const ErrorInterval& interval) { return interval.is_single() ? 1 : kWrongSide; };
     for (int i = 0; i < side(box.x_mm); ++i) {
       for (int k = 0; k < side(box.theta_rad); ++k) {
         const double u = (i + random_.uniform()) / side(box.x_mm), v = (k + random_.uniform()) / side(box.theta_rad);
