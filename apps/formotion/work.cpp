@@ -8,6 +8,7 @@
 #include "cluster/supervised_work.hpp"
 #include "commands.hpp"
 #include "io/problem_file.hpp"
+#include "optimize/run_store.hpp"
 #include "report/front_files.hpp"
 
 namespace formotion {

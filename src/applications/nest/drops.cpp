@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "analysis/contact/clearance.hpp"
-#include "analysis/motion/projection.hpp"
 
 namespace formotion::nest {
 namespace {
@@ -34,17 +33,19 @@ NestOutcome outcome_of(const Scene& scene, const Configuration& seat, double wit
   return NestOutcome::Undecided;
 }
 
-Projection sunk(const Scene& scene, const Configuration& start) {
+Projection sunk(const Scene& scene, double friction, const Configuration& start, Funnels* funnels) {
   ProjectionOptions options;
   options.keep_path = false;
-  return project(*scene.space, {scene.gravity.down, scene.friction}, start, options);
+  options.funnels = funnels;
+  return project(*scene.space, {scene.gravity.down, friction}, start, options);
 }
 
 }  // namespace
 
-DropEnd dropped(const Scene& scene, const Configuration& seat, double within_mm, const Configuration& start) {
+DropEnd dropped(const Scene& scene, const Configuration& seat, double within_mm, const Configuration& start,
+                Funnels* funnels) {
   if (!is_free(scene.part, scene.obstacles, start)) return {NestOutcome::Blocked, start, 0};
-  const Projection way = sunk(scene, start);
+  const Projection way = sunk(scene, scene.friction, start, funnels);
   return {outcome_of(scene, seat, within_mm, way), way.last, way.history};
 }
 
@@ -57,12 +58,13 @@ std::vector<double> drop_shares(const Scene& scene, const std::vector<NestRest>&
   top += scene.part.reach_mm * 1.01;
   const Point aside = turned_left(scene.gravity.down);
   std::vector<double> shares(rests.size() + 1, 0);
+  Funnels funnels;
   const double each = 1.0 / (across * turns);
   for (int i = 0; i < across; ++i) {
     const double place = std::lerp(scene.outside.from_mm, scene.outside.to_mm, (i + 0.5) / across);
     for (int k = 0; k < turns; ++k) {
       const Point from = place * aside - top * scene.gravity.down;
-      const Projection way = sunk(scene, {from.x(), from.y(), 2 * std::numbers::pi * (k + 0.5) / turns});
+      const Projection way = sunk(scene, 0, {from.x(), from.y(), 2 * std::numbers::pi * (k + 0.5) / turns}, &funnels);
       std::size_t nearest = rests.size();
       double least = within_mm;
       if (way.end == ProjectionEnd::AtRest) {

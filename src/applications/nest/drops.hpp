@@ -1,6 +1,7 @@
 // Parts let go in a nest: where one start ends, and the shares of many.
 #pragma once
 
+#include "analysis/motion/projection.hpp"
 #include "applications/nest/nest_problem.hpp"
 
 namespace formotion::nest {
@@ -13,11 +14,14 @@ struct DropEnd {
 
 // The part sinks from `start` without bouncing, with the scene's friction (first order, projection.hpp). Ambiguous
 // where several ways with different outcomes are consistent.
-DropEnd dropped(const Scene& scene, const Configuration& seat, double within_mm, const Configuration& start);
+// funnels: of this scene, shared by many starts, or null.
+DropEnd dropped(const Scene& scene, const Configuration& seat, double within_mm, const Configuration& start,
+                Funnels* funnels = nullptr);
 
 // The shares of parts that come to rest nearest to each of `rests` (the last share: those that do not come to rest, or
-// farther than within_mm from all), when they are let go over the nest, evenly over the places across it and all
-// orientations: `across` times `turns` starts, in the middles of a grid.
+// farther than within_mm from all), when they are let go over the nest and sink without friction (shaking does not let
+// it hold them), evenly over the places across it and all orientations: `across` times `turns` starts, in the middles
+// of a grid.
 std::vector<double> drop_shares(const Scene& scene, const std::vector<NestRest>& rests, double within_mm, int across,
                                 int turns);
 

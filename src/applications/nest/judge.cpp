@@ -135,9 +135,11 @@ class DesignJudge {
     const double within = spec_.goal.seat.within_mm;
     const Configuration written = seat_of(spec_, values_);
     std::vector<Configuration> ends;
+    Funnels funnels;
     const auto drop = [&](double x, double y, double theta) {
       ++work_;
-      const DropEnd end = dropped(scene, seat, within, {written.x_mm + x, written.y_mm + y, written.theta_rad + theta});
+      const DropEnd end =
+          dropped(scene, seat, within, {written.x_mm + x, written.y_mm + y, written.theta_rad + theta}, &funnels);
       if (end.outcome == NestOutcome::Seated) ends.push_back(end.end);
       return end;
     };
