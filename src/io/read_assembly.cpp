@@ -25,6 +25,14 @@ void read_support(const Json& value, const std::string& pointer, assembly::Assem
       required_uncertain(object, support.damper ? "by_ns_per_mm" : "ky_n_per_mm", kPositive, spec.uncertainty, context);
   support.ktheta = required_uncertain(object, support.damper ? "btheta_nmms_per_rad" : "ktheta_nmm_per_rad", kPositive,
                                       spec.uncertainty, context);
+  // Along both axes alike: the motion that is followed is that of one translational damping (damped_insertion.hpp).
+  if (support.damper && object.valid()) {
+    const auto same = [](const Number& a, const Number& b) {
+      return a.value.constant == b.value.constant && a.value.terms == b.value.terms && a.interval == b.interval;
+    };
+    if (!same(support.kx, support.ky)) context.issues.add(pointer, "bx and by that differ", "the same value for both");
+    spec.uncertainty.intervals.erase("by_ns_per_mm");  // goes with bx
+  }
   if (const Json* centre = object.find("center_mm")) {
     const std::string at = object.at("center_mm");
     if (centre->is_array() && centre->size() == 2) {
@@ -103,9 +111,6 @@ void read_assembly_environment(const Json* value, assembly::AssemblySpec& spec, 
                        "exactly one of compliance and damper");
   }
   spec.support.damper = !spring && damper;
-  if (spec.support.damper) {
-    context.issues.add(object.at("damper"), "a damper, which this version reads and does not follow yet", "compliance");
-  }
   if (spring) read_support(*spring, object.at("compliance"), spec, context);
   if (!spring && damper) read_support(*damper, object.at("damper"), spec, context);
   if (const Json* approach = object.require("approach", "an approach {\"distance_mm\", ...}"))
@@ -138,7 +143,7 @@ void read_assembly_uncertainty(const Json* value, assembly::AssemblySpec& spec, 
   std::vector<std::pair<std::string, Range>> keys{{"friction", kFriction}};
   for (const char* key : {"kx_n_per_mm", "ky_n_per_mm", "ktheta_nmm_per_rad"})
     if (!spec.support.damper) keys.emplace_back(key, kPositive);
-  for (const char* key : {"bx_ns_per_mm", "by_ns_per_mm", "btheta_nmms_per_rad"})
+  for (const char* key : {"bx_ns_per_mm", "btheta_nmms_per_rad"})  // bx: of both
     if (spec.support.damper) keys.emplace_back(key, kPositive);
   read_shape_uncertainty(*value, "center_mm", keys, spec.uncertainty, context);
 }

@@ -30,7 +30,7 @@ Json front_of(const std::string& name, const std::string& out, const std::string
 
 TEST_CASE("every shipped assembly goes together as drawn") {
   for (const char* name : {"straight_chamfer_least_work", "curved_chamfer", "keyed_connector", "peg_and_chamfer",
-                           "compliance_centre", "bracket_in_slot"}) {
+                           "compliance_centre", "bracket_in_slot", "damped_peg"}) {
     CAPTURE(name);
     const Json answer = evaluated(name);
     CHECK(answer["kind"] == "assembly");

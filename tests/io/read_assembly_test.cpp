@@ -113,13 +113,35 @@ TEST_CASE("all errors of an assembly come at once") {
   CHECK(issues_of(document.dump()).size() == 3);
 }
 
-TEST_CASE("a damper is refused in words rather than taken for a spring") {
-  const std::string damped = patched("/environment", R"({
-    "damper": {"bx_ns_per_mm": 1, "by_ns_per_mm": 1, "btheta_nmms_per_rad": 1}, "approach": {"distance_mm": 9}})");
-  const std::vector<InputIssue> issues = issues_of(damped);
-  const auto said = std::find_if(issues.begin(), issues.end(),
-                                 [](const InputIssue& issue) { return issue.where == "/environment/damper"; });
-  REQUIRE(said != issues.end());
-  CHECK(said->found.find("does not follow yet") != std::string::npos);
-  CHECK(said->expected == "compliance");
+TEST_CASE("a damper is read with its speed") {
+  const ProblemFile file = parse_problem(formotion::patched(patched("/uncertainty", "~"), "/environment", R"({
+    "damper": {"bx_ns_per_mm": [1, 3], "by_ns_per_mm": [1, 3], "btheta_nmms_per_rad": 400, "center_mm": [1, "c"]},
+    "approach": {"distance_mm": 9, "speed_mm_s": 5}})"),
+                                         "p.json");
+  REQUIRE(file.assembly);
+  const assembly::AssemblySpec& spec = *file.assembly;
+  const std::vector<double> values{10, 2};
+  CHECK(spec.support.damper);
+  CHECK(spec.support.kx.value(values) == 2);
+  CHECK(spec.support.ky.value(values) == 2);
+  CHECK(spec.support.ktheta.value(values) == 400);
+  CHECK(spec.support.centre_mm[0](values) == 1);
+  CHECK(spec.approach.speed_mm_s == 5);
+  CHECK(spec.uncertainty.intervals.at("bx_ns_per_mm") == std::pair(1.0, 3.0));
+  CHECK(spec.uncertainty.intervals.count("by_ns_per_mm") == 0);  // goes with bx
+}
+
+TEST_CASE("a damper of different bx and by is refused in words") {
+  for (const char* by : {"2", "[0.5, 1.5]"}) {
+    const std::string damped = patched("/environment", std::string(R"({
+      "damper": {"bx_ns_per_mm": 1, "by_ns_per_mm": )") + by +
+                                                           R"(, "btheta_nmms_per_rad": 1},
+      "approach": {"distance_mm": 9}})");
+    const std::vector<InputIssue> issues = issues_of(damped);
+    const auto said = std::find_if(issues.begin(), issues.end(),
+                                   [](const InputIssue& issue) { return issue.where == "/environment/damper"; });
+    REQUIRE(said != issues.end());
+    CHECK(said->found == "bx and by that differ");
+    CHECK(said->expected == "the same value for both");
+  }
 }

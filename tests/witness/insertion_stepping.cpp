@@ -233,8 +233,8 @@ SteppedInsertion step_insertion(const SteppingScene& scene, const Configuration&
   const int steps = static_cast<int>(std::ceil(scene.approach.distance_mm / options.step_mm));
   const double step = scene.approach.distance_mm / steps;
   for (int i = 1; i <= steps; ++i) {
-    Place carrier = began;
-    carrier.head<2>() += i * step * direction;
+    Place carrier = options.damped ? q : began;
+    carrier.head<2>() += (options.damped ? 1 : i) * step * direction;
     for (int substep = 0;; ++substep) {
       if (substep == options.most_substeps) return finish(InsertionOutcome::Undecided);
       double viscosity = 0;

@@ -27,6 +27,9 @@ struct SteppingOptions {
   double most_mm = 0.06;     // that the part moves in one step; a longer way is gone with a viscous support
   int linearisations = 3;    // of the gaps in one step
   int most_substeps = 3000;  // of one snap
+  // The carrier goes on from where the part is: a damper, by Euler's backward steps. The scene's stiffness is then B
+  // over the time of one step.
+  bool damped = false;
 };
 
 struct SteppedInsertion {

@@ -34,6 +34,10 @@ class EnergyTube {
     turning_ = k.ktheta_nmm_per_rad;
     travel_ = task.approach.distance_mm;
     force_ = task.approach.max_force_n.value_or(std::numeric_limits<double>::infinity());
+    if (task.damper_speed_mm_s) {  // r' B r <= S a' B r (docs/exclusion.md): a tube of half the way, whatever the force
+      travel_ /= 2;
+      force_ = std::numeric_limits<double>::infinity();
+    }
     // Along and across are coupled: the energy is at least that of a support as soft as the softer axis.
     bound_along_ = along_;
     if (std::abs(k.kx_n_per_mm - k.ky_n_per_mm) * std::abs(a.x() * a.y()) > 1e-12 * along_) {

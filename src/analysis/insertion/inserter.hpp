@@ -42,6 +42,16 @@ struct State {
   Insertion result;
 };
 
+// The worst end stands for all; different outcomes are ambiguous.
+void join(State& state, std::vector<State>& ends);
+
+// Why a part comes to no goal that stands (is_stopped) or still moves on these contacts. Adds to `why`.
+InsertionOutcome stopped_as(const std::vector<CarriedContact>& contacts, double friction, bool is_stopped,
+                            std::string& why);
+
+// How much is left of the goal's three conditions; not negative once it is reached.
+double reached(const InsertionTask& task, const Configuration& q);
+
 class Inserter {
  public:
   Inserter(const InsertionTask& task, const InsertionOptions& options)
@@ -61,8 +71,7 @@ class Inserter {
   double depth(const Configuration& q) const {
     return task_.approach.direction.dot(q.position() - task_.drawn.position());
   }
-  // How much is left of the goal's three conditions; not negative once it is reached.
-  double reached(const Configuration& q) const;
+  double reached(const Configuration& q) const { return inserting::reached(task_, q); }
 
   // The real carrier's way, until an outcome.
   void follow(State& state, int branching) const;
@@ -88,9 +97,6 @@ class Inserter {
 
   void branch(State& state, std::vector<Continuation>& ways, const std::vector<FirstMotion>& falls,
               const Stretch& stretch, int branching) const;
-
-  // The worst end stands for all; different outcomes are ambiguous.
-  void join(State& state, std::vector<State>& ends) const;
 
   // The part's way while the carrier all but stands. False: the outcome is there.
   bool snap(State& state, int branching) const;

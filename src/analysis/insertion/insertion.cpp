@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "analysis/contact/clearance.hpp"
+#include "analysis/insertion/damped_insertion.hpp"
 #include "analysis/insertion/inserter.hpp"
 #include "analysis/motion/path_step.hpp"
 
@@ -30,11 +31,12 @@ Insertion Inserter::run(const Configuration& start) {
   return state.result;
 }
 
-double Inserter::reached(const Configuration& q) const {
-  const double lateral = std::abs(aside_.dot(q.position() - task_.drawn.position()));
-  const double tilt = std::abs(q.theta_rad - task_.drawn.theta_rad);
-  return std::min({depth(q) - task_.goal.depth_mm, task_.goal.lateral_mm - lateral,
-                   (task_.goal.tilt_rad - tilt) * space_.part.reach_mm}) +
+double reached(const InsertionTask& task, const Configuration& q) {
+  const Point moved = q.position() - task.drawn.position();
+  const double lateral = std::abs(turned_left(task.approach.direction).dot(moved));
+  const double tilt = std::abs(q.theta_rad - task.drawn.theta_rad);
+  return std::min({task.approach.direction.dot(moved) - task.goal.depth_mm, task.goal.lateral_mm - lateral,
+                   (task.goal.tilt_rad - tilt) * task.space->part.reach_mm}) +
          kReached_mm;
 }
 
@@ -115,7 +117,7 @@ void Inserter::branch(State& state, std::vector<Continuation>& ways, const std::
   join(state, ends);
 }
 
-void Inserter::join(State& state, std::vector<State>& ends) const {
+void join(State& state, std::vector<State>& ends) {
   unsigned outcomes = 0;
   double deepest = 0, axial = 0, lateral = 0;
   std::uint64_t history = 0;
@@ -166,19 +168,22 @@ void Inserter::note(State& state, const Eigen::Vector3d& force, const char* even
   state.contacts = std::move(contacts);
 }
 
-void Inserter::stop(State& state, const std::string& why) const {
-  const bool sticks = std::any_of(state.contacts.begin(), state.contacts.end(), [&](const CarriedContact& contact) {
-    return task_.friction > 0 && contact.mode == ContactMode::Stick && contact.force.normal > 0;
+InsertionOutcome stopped_as(const std::vector<CarriedContact>& contacts, double friction, bool is_stopped,
+                            std::string& why) {
+  const bool sticks = std::any_of(contacts.begin(), contacts.end(), [&](const CarriedContact& contact) {
+    return friction > 0 && contact.mode == ContactMode::Stick && contact.force.normal > 0;
   });
-  state.result.why = why;
-  if (sticks && state.is_stopped && is_wedged(state.contacts, task_.friction)) {
-    state.result.why += " with two contacts inside each other's friction cones";
-    return finish(state, InsertionOutcome::Wedged);
+  if (sticks && is_stopped && is_wedged(contacts, friction)) {
+    why += " with two contacts inside each other's friction cones";
+    return InsertionOutcome::Wedged;
   }
-  state.result.why += sticks                   ? " with a contact that sticks"
-                      : state.contacts.empty() ? " short of the goal"
-                                               : " with no contact sticking";
-  finish(state, sticks ? InsertionOutcome::Jammed : InsertionOutcome::Blocked);
+  why += sticks ? " with a contact that sticks" : contacts.empty() ? " short of the goal" : " with no contact sticking";
+  return sticks ? InsertionOutcome::Jammed : InsertionOutcome::Blocked;
+}
+
+void Inserter::stop(State& state, const std::string& why) const {
+  state.result.why = why;
+  finish(state, stopped_as(state.contacts, task_.friction, state.is_stopped, state.result.why));
 }
 
 void Inserter::finish(State& state, InsertionOutcome outcome) const {
@@ -215,6 +220,7 @@ const char* name(InsertionOutcome outcome) {
 }
 
 Insertion insert(const InsertionTask& task, const Configuration& start, const InsertionOptions& options) {
+  if (task.damper_speed_mm_s) return insert_damped(task, start, options);
   return inserting::Inserter(task, options).run(start);
 }
 

@@ -46,6 +46,8 @@ struct InsertionTask {
   Approach approach;
   Configuration drawn;  // the pose of no errors and depth 0
   SeatedGoal goal;
+  // The support is a damper whose carrier has this speed: stiffness holds N s/mm and N mm s/rad (damped_insertion.hpp).
+  std::optional<double> damper_speed_mm_s = {};
 };
 
 enum class InsertionOutcome { Assembled, Wedged, Jammed, Blocked, Ambiguous, Undecided };
@@ -93,6 +95,7 @@ struct InsertionOptions {
   int max_branching = 3;    // ambiguities in a row that are followed
 };
 
+// On a spring or, as the task says, on a damper.
 // start: where the part (and with it the carrier) begins. Starts that overlap an obstacle are blocked.
 Insertion insert(const InsertionTask& task, const Configuration& start, const InsertionOptions& options = {});
 

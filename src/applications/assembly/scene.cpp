@@ -65,9 +65,10 @@ std::vector<Violation> defects(const AssemblySpec& spec, int topology, std::span
       found.push_back({*what, "/fixed_mm/" + std::to_string(i), 1});
   }
   for (const auto& [name, number] :
-       {std::pair{"kx", &spec.support.kx}, {"ky", &spec.support.ky}, {"ktheta", &spec.support.ktheta}}) {
+       {std::pair{"x", &spec.support.kx}, {"y", &spec.support.ky}, {"theta", &spec.support.ktheta}}) {
     if (const double k = number->value(values); !(k > 0))
-      found.push_back({std::string(name) + " is not positive", "/environment", 1 - k});
+      found.push_back(
+          {(spec.support.damper ? "b" : "k") + std::string(name) + " is not positive", "/environment", 1 - k});
   }
   return found;
 }
@@ -86,7 +87,17 @@ std::unique_ptr<Scene> scene_of(const AssemblySpec& spec, int topology, std::spa
   auto scene = std::make_unique<Scene>();
   double reach = 0;
   for (const Point& p : body.outer) reach = std::max(reach, p.norm());
-  scene->part = MovingShape::of({body}, reach / 2);  // comparable to a radius of gyration: a measure of tilts
+  const SupportSpec& support = spec.support;
+  Stiffness stiffness{worth(support.kx, "kx_n_per_mm", values, member),
+                      worth(support.ky, "ky_n_per_mm", values, member),
+                      worth(support.ktheta, "ktheta_nmm_per_rad", values, member)};
+  double gyration = reach / 2;  // comparable to a radius of gyration: a measure of tilts
+  if (support.damper) {
+    const double b = worth(support.kx, "bx_ns_per_mm", values, member);  // and by, which is the same
+    stiffness = {b, b, worth(support.ktheta, "btheta_nmms_per_rad", values, member)};
+    gyration = std::sqrt(stiffness.ktheta_nmm_per_rad / b);
+  }
+  scene->part = MovingShape::of({body}, gyration);
   std::vector<ObstacleShape> shapes;
   for (const Loop& loop : joint.fixed_mm) shapes.push_back({normalised({loop, {}}), 0, false});
   auto obstacles = make_obstacles(shapes, member.grow_mm);
@@ -95,9 +106,8 @@ std::unique_ptr<Scene> scene_of(const AssemblySpec& spec, int topology, std::spa
   scene->space = std::make_unique<ContactSpace>(scene->part, scene->obstacles);
   InsertionTask& task = scene->task;
   task.space = scene->space.get();
-  const SupportSpec& support = spec.support;
-  task.stiffness = {worth(support.kx, "kx_n_per_mm", values, member), worth(support.ky, "ky_n_per_mm", values, member),
-                    worth(support.ktheta, "ktheta_nmm_per_rad", values, member)};
+  task.stiffness = stiffness;
+  if (support.damper) task.damper_speed_mm_s = spec.approach.speed_mm_s;
   task.friction = worth(spec.friction, "friction", values, member);
   task.approach.direction = {std::cos(spec.approach.direction_rad), std::sin(spec.approach.direction_rad)};
   // Exact where the approach is along an axis.
