@@ -7,6 +7,7 @@ namespace formotion {
 namespace {
 
 constexpr double kOverhang_mm = 5;
+constexpr double kDirection_mm = 20;  // drawn of a direction that leads nowhere
 
 const std::vector<DxfLayer> kLayers{{"FIXED", 7, "CONTINUOUS"}, {"PART", 4, "CONTINUOUS"}, {"GOAL", 6, "DASHED"},
                                     {"DATUM", 5, "CONTINUOUS"}, {"CENTER", 8, "CENTER"},   {"NOTE", 3, "CONTINUOUS"}};
@@ -20,7 +21,8 @@ void contours(DxfWriter& out, const char* layer, const Polygon& polygon) {
 
 std::string joint_dxf(const JointDrawing& drawing) {
   const std::vector<Polygon> fixed = fixed_pieces(drawing.fixed_mm);
-  const Polygon goal = at_goal(drawing);
+  const bool has_goal = drawing.words.has_goal();
+  const Polygon goal = has_goal ? at_goal(drawing) : drawing.part;
   Box extent;
   for (const Polygon& piece : fixed) {
     for (const Point& p : piece.outer) extent.include(p);
@@ -31,9 +33,9 @@ std::string joint_dxf(const JointDrawing& drawing) {
   DxfWriter out(extent, kLayers);
   for (const Polygon& piece : fixed) contours(out, "FIXED", piece);
   contours(out, "PART", drawing.part);
-  contours(out, "GOAL", goal);
+  if (has_goal) contours(out, "GOAL", goal);
   const Point c = drawing.centre_mm, along = ApproachFrame(drawing.approach_rad).along;
-  out.line("DATUM", c, c + drawing.depth_mm * along);
+  out.line("DATUM", c, c + (has_goal ? drawing.depth_mm : kDirection_mm) * along);
   out.line("CENTER", c - Point(kOverhang_mm, 0), c + Point(kOverhang_mm, 0));
   out.line("CENTER", c - Point(0, kOverhang_mm), c + Point(0, kOverhang_mm));
   double y = extent.min.y() - kOverhang_mm - kDxfText_mm;
@@ -42,9 +44,13 @@ std::string joint_dxf(const JointDrawing& drawing) {
     y -= 1.6 * kDxfText_mm;
   };
   note(drawing.title);
-  note("lengths in mm; cut the contours of layer FIXED; layer PART is the part where it starts");
-  note("layer GOAL is the part at the goal's depth of " + length_text(drawing.depth_mm) +
-       ", layer DATUM its way from the compliance centre (layer CENTER)");
+  note(std::string("lengths in mm; cut the contours of layer FIXED; layer PART is ") + drawing.words.part_layer);
+  if (has_goal) {
+    note(std::string("layer GOAL is the ") + drawing.words.goal + " of " + length_text(drawing.depth_mm) +
+         ", layer DATUM its way from the " + drawing.words.centre + " (layer CENTER)");
+  } else {
+    note(std::string("layer DATUM is the direction of gravity, from the ") + drawing.words.centre + " (layer CENTER)");
+  }
   for (const std::string& line : drawing.notes) note(line);
   return out.finish();
 }

@@ -38,7 +38,7 @@ class Sheet {
       for (const Loop& hole : piece.holes) add_fixed(hole);
     }
     part_ = seen(drawing.part);
-    goal_ = seen(at_goal(drawing));
+    if (drawing.words.has_goal()) goal_ = seen(at_goal(drawing));
     for (const std::vector<Loop>* loops : {&fixed_, &part_, &goal_}) {
       for (const Loop& loop : *loops) {
         for (const Point& p : loop) extent_.include(p);
@@ -95,7 +95,7 @@ class Sheet {
     canvas_.area(page(fixed_), "metal");
     canvas_.area(page(part_), "feed");
     for (const Loop& loop : page(fixed_)) canvas_.path(loop, true, "cut");
-    canvas_.area(page(goal_), "rail");
+    if (!goal_.empty()) canvas_.area(page(goal_), "rail");
   }
 
   void centre() {
@@ -117,7 +117,7 @@ class Sheet {
                   {x - 3, y + 12},
                   {x - 1.5, y + 12}},
                  true, "feed");
-    canvas_.text({x, y - 1.5}, "APPROACH", {2.6, Anchor::Middle, true, false, false});
+    canvas_.text({x, y - 1.5}, drawing_.words.arrow, {2.6, Anchor::Middle, true, false, false});
     canvas_.take(box_around({x, y + 7}, 18, 24));
   }
 
@@ -208,20 +208,20 @@ class Sheet {
     for (std::size_t i = 0; i < fixed_in_file_.size(); ++i) {
       std::size_t count = 0;
       const std::string name = std::to_string(i + 1);
-      tables_.push_back({"fixed " + name, {{"corner", "x", "y", ""}}});
+      tables_.push_back({std::string(drawing_.words.shape) + " " + name, {{"corner", "x", "y", ""}}});
       contour(tables_.back(), name, fixed_in_file_[i], count);
     }
     std::size_t count = 0;
-    tables_.push_back({"part, as drawn", {{"corner", "x", "y", ""}}});
+    tables_.push_back({drawing_.words.part, {{"corner", "x", "y", ""}}});
     contour(tables_.back(), "P", drawing_.part.outer, count);
     for (const Loop& hole : drawing_.part.holes) contour(tables_.back(), "P", hole, count);
     const Point& c = drawing_.centre_mm;
-    tables_.back().rows.push_back({"C", length_text(c.x()), length_text(c.y()), "compliance centre"});
+    tables_.back().rows.push_back({"C", length_text(c.x()), length_text(c.y()), drawing_.words.centre});
   }
 
   // Slanted faces in a table, and beside them, on their shape, where there is room.
   void faces() {
-    Table table{"slanted faces", {{"from", "to", "width", "depth", "to approach"}}};
+    Table table{"slanted faces", {{"from", "to", "width", "depth", drawing_.words.to_direction}}};
     for (const SlantedFace& face : slanted_faces(fixed_)) {
       if (fixed_[face.loop].size() > kMostNumbered) continue;
       const std::string shape = std::to_string(face.loop + 1) + ".";
@@ -249,13 +249,14 @@ class Sheet {
   void tables() {
     bottom_ = draw_tables(canvas_, tables_, {kFrame_mm + 4, bottom_ + 4}, width_ - kFrame_mm - 4) + 4;
     std::vector<std::string> notes = drawing_.notes;
-    notes.push_back("All lengths in mm, coordinates as in the problem file. The approach (" +
-                    angle_text(drawing_.approach_rad) + " from +x) points down. Scale " + scale_text(scale_) +
+    notes.push_back(std::string("All lengths in mm, coordinates as in the problem file. ") + drawing_.words.direction +
+                    " (" + angle_text(drawing_.approach_rad) + " from +x) points down. Scale " + scale_text(scale_) +
                     "; the bar is 50 mm on paper.");
-    const std::vector<LegendEntry> legend{{"metal", "fixed shapes"},
-                                          {"feed", "part, as drawn"},
-                                          {"rail", "part at the goal's depth"},
-                                          {"axis", "C: compliance centre"}};
+    const JointWords& words = drawing_.words;
+    std::vector<LegendEntry> legend{{"metal", words.shapes}, {"feed", words.part}};
+    if (words.has_goal()) legend.push_back({"rail", words.goal});
+    const std::string centre = std::string("C: ") + words.centre;
+    legend.push_back({"axis", centre.c_str()});
     const double foot = draw_legend(canvas_, legend, {kFrame_mm + 5, bottom_ + 2});
     bottom_ = draw_title_block(canvas_, drawing_.title, notes, {width_ - kFrame_mm, bottom_ + 2}, foot);
   }
@@ -272,6 +273,19 @@ class Sheet {
 };
 
 }  // namespace
+
+JointWords nest_words() {
+  JointWords words;
+  words.arrow = "GRAVITY";
+  words.direction = "Gravity";
+  words.to_direction = "to gravity";
+  words.shape = words.shapes = "nest";
+  words.part = "part in its seat";
+  words.part_layer = "the part in its seat";
+  words.goal = "";
+  words.centre = "centre of mass";
+  return words;
+}
 
 std::string joint_svg(const JointDrawing& drawing) { return Sheet(drawing).draw(); }
 

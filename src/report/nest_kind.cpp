@@ -38,6 +38,7 @@ class NestKind final : public ShapesKind<nest::NestProblem> {
     const nest::NestSpec& spec = problem().spec();
     JointDrawing drawing;
     drawing.title = title;
+    drawing.words = nest_words();
     drawing.fixed_mm = problem().nest_mm(topology, values);
     const Configuration seat = problem().seat(values);
     for (const AspectShape& shape : aspect_shapes(spec.part, values)) {

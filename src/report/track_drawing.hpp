@@ -11,8 +11,8 @@ namespace formotion {
 struct TrackDrawing {
   std::string title;  // problem's name and design's id
   double track_width_mm = 0;
-  double margin_mm = 30;  // plain track drawn before the first and after the last void
-  double plate_mm = 3;              // thickness of the track
+  double margin_mm = 30;           // plain track drawn before the first and after the last void
+  double plate_mm = 3;             // thickness of the track
   double obstacle_height_mm = 10;  // of the wall and of what stands on the track, over the track
   std::vector<feeder::PlacedFeature> features;
   std::vector<std::string> notes;  // lines of the title block: tolerance, goal pose, ...
@@ -29,9 +29,9 @@ std::string track_svg(const TrackDrawing& drawing);
 // change it: recesses are only there), CENTER (crosses of pins). Lengths in mm. Metal that a void surrounds on all
 // sides falls out when it is cut: it counts as void.
 std::string track_dxf(const TrackDrawing& drawing);
-// The plate from z = 0 on, x and y as drawn; on it the wall, 5 mm deep behind its deepest recess, and what stands on the
-// track. The plate goes on under the wall, but not under recesses, where it would support parts. What stands out over
-// voids or the free edge hangs there. Blades (wipers, hold-downs) are left out: they belong to what carries them.
+// The plate from z = 0 on, x and y as drawn; on it the wall, 5 mm deep behind its deepest recess, and what stands on
+// the track. The plate goes on under the wall, but not under recesses, where it would support parts. What stands out
+// over voids or the free edge hangs there. Blades (wipers, hold-downs) are left out: they belong to what carries them.
 std::string track_stl(const TrackDrawing& drawing);
 
 }  // namespace formotion

@@ -52,7 +52,7 @@ struct Tally {
 };
 
 // The margin by generators on the whole track, nothing grown, nothing looked up.
-double margin_at(const feeder::AspectShape& shape, const Track& track, double shift, const Configuration& q) {
+double margin_at(const AspectShape& shape, const Track& track, double shift, const Configuration& q) {
   return support_margin(placed(shape.footprint, q.theta_rad, q.position()), track, {q.x_mm, q.y_mm - shift})
       .value_or(-1e9);
 }
@@ -74,7 +74,7 @@ void compare(std::uint64_t seed, Tally& tally) {
   }
   const Track whole{spec.environment.track_width_mm, united(loops)};
   const feeder::Floor floor = feeder::Floor::of(groups, spec.environment.track_width_mm, {});
-  const feeder::AspectShape& shape = part.shapes[0];
+  const AspectShape& shape = part.shapes[0];
   const double shift = feeder::wall_shift(shape.com_height_mm, spec.environment), reach = track->world(0).part.reach_mm;
   for (const feeder::PoseModel& pose : part.poses) {
     const Configuration start = track->pose_start(pose);

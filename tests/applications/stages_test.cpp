@@ -138,7 +138,7 @@ TEST_CASE("a track's outcomes and tolerance are composed of its stages") {
     INFO("seed " << seed << " " << problem.topologies()[0].label);
     double longest = 0, diameter = 0;
     for (const feeder::StablePose& pose : problem.stable_poses({})) {
-      const feeder::AspectShape shape = problem.shapes({})[pose.aspect];
+      const AspectShape shape = problem.shapes({})[pose.aspect];
       const Box box = bounding_box(placed(shape.footprint, pose.orientation_rad, {0, 0}).outer);
       longest = std::max(longest, box.max.x() - box.min.x());
       diameter = std::max(diameter, formotion::diameter(shape.footprint.outer));

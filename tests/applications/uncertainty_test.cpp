@@ -53,7 +53,7 @@ Loop shaken(Random& random, const Loop& loop, double by) {
 feeder::PartModel shaken_part(Random& random, const feeder::PartModel& part, const feeder::Environment& environment,
                               const feeder::Uncertainty& uncertainty) {
   feeder::PartModel member = part;
-  for (feeder::AspectShape& shape : member.shapes) {
+  for (AspectShape& shape : member.shapes) {
     const Point com = in_disc(random, uncertainty.com_mm);
     const auto shake = [&](Polygon polygon) {
       polygon.outer = shaken(random, polygon.outer, uncertainty.outline_mm);
@@ -65,7 +65,7 @@ feeder::PartModel shaken_part(Random& random, const feeder::PartModel& part, con
     shape.footprint = is_flat ? shape.bodies.front() : shake(shape.footprint);
   }
   for (feeder::PoseModel& pose : member.poses) {
-    const feeder::AspectShape& shape = member.shapes[pose.stable.aspect];
+    const AspectShape& shape = member.shapes[pose.stable.aspect];
     double lowest = 0;
     for (const Polygon& body : shape.bodies)
       lowest = std::min(lowest, bounding_box(placed(body, pose.stable.orientation_rad, {0, 0}).outer).min.y());
@@ -95,7 +95,7 @@ feeder::Layout shaken_layout(Random& random, feeder::Layout layout, double by) {
 }
 
 bool is_simple(const feeder::PartModel& part, const feeder::Layout& layout) {
-  for (const feeder::AspectShape& shape : part.shapes) {
+  for (const AspectShape& shape : part.shapes) {
     for (const Polygon& body : shape.bodies) {
       if (defect(body)) return false;
     }

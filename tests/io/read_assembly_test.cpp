@@ -84,7 +84,7 @@ TEST_CASE("each kind of bad assembly is one issue, at its place, in words") {
       {"/design", "~", "", "exactly one of design and topologies"},
       {"/design/fixed_mm/1", "[[0,0],[10,10],[10,0],[0,10]]", "/design/fixed_mm/1", "simple polygon"},
       {"/design/fixed_mm/1/0/0", "\"v + 1\"", "/design/fixed_mm/1/0/0", "v"},
-      {"/grammar", "{\"features\": []}", "/grammar", "no grammar of an assembly"},
+      {"/grammar", "{\"features\": []}", "/grammar", "grammars are of tracks"},
       {"/goal/depth_mm", "~", "/goal/depth_mm", "the depth"},
       {"/goal/never/0/aspect", "\"dwon\"", "/goal/never/0/aspect", "did you mean 'down'"},
       {"/goal/require", "{\"capture\": {\"min\": 1}}", "/goal/require/capture", "unknown key"},

@@ -123,3 +123,26 @@ TEST_CASE("A turned joint gives the same sheet but for coordinates") {
     CHECK(contains(svg, text));
   }
 }
+
+TEST_CASE("A nest is drawn with its own words and without the goal of an assembly") {
+  JointDrawing drawing = peg();
+  drawing.depth_mm = 0;
+  drawing.words = nest_words();
+  const std::string svg = joint_svg(drawing);
+  for (const char* text : {">GRAVITY<", ">centre of mass<", ">C: centre of mass<", ">part in its seat<", ">nest 1<",
+                           ">to gravity<", "Gravity", ">10.20<"}) {
+    INFO(text);
+    CHECK(contains(svg, text));
+  }
+  for (const char* text : {"APPROACH", "pproach", "ompliance", "as drawn", "goal", "depth 0"}) {
+    INFO(text);
+    CHECK_FALSE(contains(svg, text));
+  }
+  const std::string dxf = joint_dxf(drawing);
+  CHECK(read_layer(dxf, "FIXED").size() == 2);
+  CHECK(read_layer(dxf, "PART").size() == 2);
+  CHECK(contains(dxf, "layer PART is the part in its seat"));
+  CHECK(contains(dxf, "direction of gravity, from the centre of mass"));
+  CHECK_FALSE(contains(dxf, "compliance"));
+  CHECK_FALSE(contains(dxf, "layer GOAL"));
+}

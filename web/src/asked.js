@@ -1,11 +1,11 @@
 // What was asked: the part, the track, the goal, what may vary.
 
-import { assemblyFacts } from './assembly_asked.js';
 import { h } from './dom.js';
 import { degrees, measure, percent, short, whole } from './format.js';
-import { drawnJoint } from './joint_picture.js';
+import { kindOf } from './kinds.js';
 import { aspectPictures } from './poses.js';
 
+const capital = (word) => word.replace(/^./, (c) => c.toUpperCase());
 const fact = (name, ...value) => [h('dt', null, name), h('dd', null, ...value)];
 
 function goalWords(goal) {
@@ -44,12 +44,12 @@ export function asked(report) {
     topology_count: count, // a grammar's are listed only where designs shown have them
     text,
   } = report.problem;
-  const joint = report.problem.assembly;
+  const kind = kindOf(report);
   const part = report.parts[0];
   const facts = h(
     'dl',
     { class: 'facts' },
-    joint ? assemblyFacts(joint).map(([name, words]) => fact(name, words)) : fact('Goal', goalWords(goal)),
+    kind.facts ? kind.facts(report.problem).map(([name, words]) => fact(name, words)) : fact('Goal', goalWords(goal)),
     fact(
       'Ranked by',
       objectives.map((o, i) => [
@@ -61,7 +61,7 @@ export function asked(report) {
         ),
       ]),
     ),
-    joint ? null : trackFacts(e, part),
+    kind.facts ? null : trackFacts(e, part),
     m && (m.cutter_radius_mm !== null || m.min_web_mm !== null)
       ? fact(
           'Manufacture',
@@ -88,9 +88,9 @@ export function asked(report) {
         )
       : null,
     count === 1
-      ? fact(joint ? 'Shapes' : 'Features', topologies[0].label)
+      ? fact(capital(kind.word), topologies[0].label)
       : fact(
-          `${whole(count)} choices of ${joint ? 'shapes' : 'features'}`,
+          `${whole(count)} choices of ${kind.word}`,
           h(
             'ul',
             { class: 'inline' },
@@ -109,7 +109,7 @@ export function asked(report) {
       h(
         'div',
         null,
-        h('div', { class: 'aspects' }, part ? aspectPictures(part) : joint ? drawnJoint(report) : null),
+        h('div', { class: 'aspects' }, part ? aspectPictures(part) : (kind.picture?.(report) ?? null)),
         part
           ? h(
               'p',
@@ -130,7 +130,7 @@ export function asked(report) {
         details('The problem as run (JSON)', h('pre', { class: 'json' }, pretty(text))),
       ),
     ),
-    joint ? null : posesLine(part),
+    kind.section ? null : posesLine(part),
   ];
 }
 

@@ -16,7 +16,7 @@ export function assemblySection(design, asked) {
   const travel = h('div', { id: 'travel' });
   const space = jointSpace(joint, (placement) => running?.pick(placement));
   const map = joint.region
-    ? regionMap(joint, (index) => {
+    ? regionMap({ region: joint.region, capture: joint.capture, starts: joint.insertions }, (index) => {
         choose(index);
         running?.run();
       })

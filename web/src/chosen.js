@@ -1,33 +1,13 @@
 // The chosen design: what it scores, what to mind, its drawing, poses, travel, numbers and how to reproduce it.
 
-import { assemblySection } from './assembly.js';
 import { h } from './dom.js';
 import { fixed, kWeak_mm, measure, mm, short, whole, withUnit } from './format.js';
+import { kindOf } from './kinds.js';
 import { stampDetails, stampPill } from './stamp.js';
 import { poseTravel } from './pose_travel.js';
 import { poseCards } from './poses.js';
 import { featureTable, trackDrawing } from './track_drawing.js';
 import { turningSection } from './turning.js';
-
-const kFigures = [
-  'efficiency',
-  'tolerance_mm',
-  'margin_mm',
-  'feed_rate_per_min',
-  'length_mm',
-  'purity',
-  'jam_probability',
-];
-
-const kOfAssemblies = [
-  'success_fraction',
-  'capture_mm',
-  'capture_deg',
-  'depth_margin_mm',
-  'peak_force_n',
-  'work_nmm',
-  'chamfer_mm',
-];
 
 export function chosenDesign(report, state, section) {
   let running = null;
@@ -44,7 +24,7 @@ export function chosenDesign(report, state, section) {
       );
       return;
     }
-    if (report.problem.kind === 'assembly') return drawJoint(design);
+    if (kindOf(report).section) return drawShapes(design);
     const part = report.parts[design.part];
     const { environment, manufacture } = report.problem;
     const cards = poseCards(design, part, environment.track_width_mm, state);
@@ -95,13 +75,13 @@ export function chosenDesign(report, state, section) {
     section.refreshPose();
   }
 
-  function drawJoint(design) {
-    running = assemblySection(design, report.problem.assembly);
+  function drawShapes(design) {
+    running = kindOf(report).section(design, report.problem);
     section.replaceChildren(
       heading(report, design),
       figures(report, design),
       ...[uncertainties(report, design), stampDetails(design)].filter(Boolean),
-      jointCautions(design),
+      shapeCautions(design, kindOf(report).limits),
       h('p', { class: 'small' }, links(design)),
       running.node,
       numbers(report, design),
@@ -161,7 +141,7 @@ function figures(report, design) {
   return h(
     'dl',
     { class: 'figures', id: 'figures' },
-    (report.problem.kind === 'assembly' ? kOfAssemblies : kFigures).map((name) =>
+    kindOf(report).figures.map((name) =>
       h(
         'div',
         { title: measure(name).says },
@@ -240,7 +220,7 @@ function whatIsWrong(design) {
   return [h('h3', null, 'Why it is not feasible'), h('ul', { id: 'violations' }, wrong)];
 }
 
-function jointCautions(design) {
+function shapeCautions(design, limits) {
   return h(
     'div',
     { class: 'cautions' },
@@ -251,12 +231,7 @@ function jointCautions(design) {
       { id: 'cautions' },
       design.feasible ? null : h('li', { class: 'bad' }, 'Do not build this design: it does not meet the goal.'),
       (design.warnings ?? []).map((text) => h('li', { class: 'warn' }, `${text}.`)),
-      h(
-        'li',
-        null,
-        'Insertions are slow: a rigid part on a linear support, Coulomb friction of one coefficient, no impacts and no bending.',
-      ),
-      h('li', null, 'Friction of real surfaces spreads widely. Try the worst start by hand.'),
+      limits.map((text) => h('li', null, text)),
     ),
   );
 }

@@ -2,17 +2,14 @@
 
 import { h } from './dom.js';
 import { bare, counted, kWeak_mm, measure, whole } from './format.js';
+import { kindOf } from './kinds.js';
 import { topologiesShown, topologyKey } from './topology_colours.js';
 import { stampSign } from './stamp.js';
 
-const kMeasures = ['efficiency', 'tolerance_mm', 'margin_mm', 'feed_rate_per_min', 'length_mm', 'feature_count'];
-const kOfInfeasible = ['efficiency', 'purity', 'jam_probability'];
-const kOfAssemblies = ['success_fraction', 'capture_mm', 'capture_deg', 'peak_force_n', 'work_nmm', 'depth_margin_mm'];
-
 function columnsOf(report) {
   const objectives = report.problem.objectives.map((o) => o.name);
-  const others =
-    report.problem.kind === 'assembly' ? kOfAssemblies : report.run.feasible > 0 ? kMeasures : kOfInfeasible;
+  const { columns: own, columnsOfInfeasible = own } = kindOf(report);
+  const others = report.run.feasible > 0 ? own : columnsOfInfeasible;
   const rest = others.filter((n) => !objectives.includes(n));
   const measures = [...objectives, ...rest];
   const columns = measures.map((name) => ({ name, objective: objectives.includes(name), of: (d) => d.metrics[name] }));

@@ -8,6 +8,7 @@ import { h } from './dom.js';
 import { counted, designsEvaluated, measure, short, whole } from './format.js';
 import { findings } from './findings.js';
 import { history } from './history.js';
+import { kindOf } from './kinds.js';
 import { pareto } from './pareto.js';
 import { makeState } from './state.js';
 
@@ -49,11 +50,7 @@ function header() {
   const [title, rest] = verdict();
   document.title = `${problem.name} \u2013 Formotion report`;
   byId('head').append(
-    h(
-      'p',
-      { class: 'kind' },
-      `Formotion report \u00b7 ${problem.kind === 'assembly' ? 'assembly' : `${problem.kind} track`}`,
-    ),
+    h('p', { class: 'kind' }, `Formotion report \u00b7 ${kindOf(report).title}`),
     h('h1', null, problem.name),
     h(
       'p',

@@ -43,14 +43,18 @@ export function bands(rows, [low, high]) {
   return found;
 }
 
-// picked(index): of an insertion. Answers {node, mark(index)}.
-export function regionMap(joint, picked) {
-  const { region, capture, insertions } = joint;
+const kWords = {
+  x: 'lateral error of the start (mm)',
+  theta: 'angular error of the start (\u00b0)',
+  shows: 'plays it',
+};
+
+// picked(index): of a start; words: titles of the axes, and what Enter does. Answers {node, mark(index)}.
+export function regionMap({ region, capture, starts }, picked, words = kWords) {
   const [xs, thetas] = [widened(region.x_mm), widened(region.theta_deg)];
   const size = [xs[1] - xs[0], thetas[1] - thetas[0]];
   const far = (a, b) => Math.hypot((a.x_mm - b.x_mm) / size[0], (a.theta_deg - b.theta_deg) / size[1]);
-  const nearest = (spot) =>
-    insertions.reduce((best, one, i) => (far(one, spot) < far(insertions[best], spot) ? i : best), 0);
+  const nearest = (spot) => starts.reduce((best, one, i) => (far(one, spot) < far(starts[best], spot) ? i : best), 0);
   let chosen = 0;
   let redraw = () => {};
 
@@ -74,7 +78,7 @@ export function regionMap(joint, picked) {
         class: 'region-map',
         tabindex: 0,
         role: 'group',
-        'aria-label': 'What becomes of every start; arrow keys pick another start, Enter plays it',
+        'aria-label': `What becomes of every start; arrow keys pick another start, Enter ${words.shows}`,
         onclick: (event) => {
           const area = svg.getBoundingClientRect();
           const scale = px / area.width;
@@ -91,7 +95,7 @@ export function regionMap(joint, picked) {
         s('path', { class: `region ${band.outcome}`, d: line(degenerate(band.corners)) }),
       ),
       captureBox(x, y),
-      insertions.map((one, i) =>
+      starts.map((one, i) =>
         s('circle', { class: 'start', 'data-start': i, cx: x(one.x_mm), cy: y(one.theta_deg), r: 2.2 }),
       ),
       bottom,
@@ -99,17 +103,17 @@ export function regionMap(joint, picked) {
       s(
         'text',
         { class: 'axis-title', x: (x(xs[0]) + x(xs[1])) / 2, y: kHeight - 6, 'text-anchor': 'middle' },
-        'lateral error of the start (mm)',
+        words.x,
       ),
       s(
         'text',
         { class: 'axis-title', 'text-anchor': 'middle', transform: `translate(14,${kHeight / 2 - 14}) rotate(-90)` },
-        'angular error of the start (\u00b0)',
+        words.theta,
       ),
       pin,
     );
     redraw = () => {
-      const one = insertions[chosen];
+      const one = starts[chosen];
       const [cx, cy] = [x(one.x_mm), y(one.theta_deg)];
       pin.replaceChildren(
         s('circle', { cx, cy, r: 7, class: 'halo' }),
@@ -117,7 +121,7 @@ export function regionMap(joint, picked) {
       );
     };
     plot.replaceChildren(svg);
-    if (insertions.length) redraw();
+    if (starts.length) redraw();
   });
 
   // A side that is a single point fills the picture's width or height.
@@ -148,8 +152,8 @@ export function regionMap(joint, picked) {
     if (!way) return;
     event.preventDefault();
     // The nearest start that lies more that way than aside.
-    const here = insertions[chosen];
-    const steps = insertions
+    const here = starts[chosen];
+    const steps = starts
       .map((one, i) => {
         const off = [(one.x_mm - here.x_mm) / size[0], (one.theta_deg - here.theta_deg) / size[1]];
         const [along, aside] = way[0] ? [off[0] * way[0], off[1]] : [off[1] * way[1], off[0]];
@@ -161,7 +165,7 @@ export function regionMap(joint, picked) {
   }
 
   function choose(index) {
-    if (insertions.length) picked(index);
+    if (starts.length) picked(index);
   }
 
   const item = ([name, share]) =>
@@ -201,7 +205,7 @@ export function regionMap(joint, picked) {
     mark(index) {
       chosen = index;
       redraw();
-      const one = insertions[index];
+      const one = starts[index];
       said.textContent = `Picked: ${startWords(one)}, ${outcome(one.outcome).word}.`;
     },
   };
