@@ -9,11 +9,14 @@ const [pagePath, path] = process.argv.slice(2);
 if (!path) throw new Error('usage: assembly.mjs page.html report.html');
 writeFileSync(path, fillPage(readFileSync(pagePath, 'utf8'), makeReport()));
 
-const shown = (page) =>
-  page.locator('#readout').evaluate((node) => {
+// The numbers beside the animation; its first frame, which a busy machine may draw late, writes them.
+async function shown(page) {
+  await page.locator('#readout:has([data-at])').waitFor();
+  return page.locator('#readout').evaluate((node) => {
     const of = (name) => Number(node.querySelector(`[data-${name}]`).getAttribute(`data-${name}`));
     return { at: of('at'), depth: of('depth'), axial: of('axial'), lateral: of('lateral'), theta: of('theta') };
   });
+}
 const pickedStart = async (page) => Number(await page.locator('.start-picked .rim').getAttribute('data-picked'));
 const near = (a, b) => Math.abs(a - b) < 1e-3;
 

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "applications/assembly/judge.hpp"
+#include "applications/shared/judging.hpp"
 #include "applications/shared/used_variables.hpp"
 
 namespace formotion::assembly {
@@ -46,20 +47,8 @@ std::span<const Objective> AssemblyProblem::objectives() const { return model_->
 const AssemblySpec& AssemblyProblem::spec() const { return model_->spec; }
 
 Score AssemblyProblem::score(const Candidate& candidate, Memory*) const {
-  const Judged judged = judge(model_->spec, candidate.topology, all_values(*this, candidate), false);
-  const AssemblyEvaluation& evaluation = judged.evaluation;
-  Score score;
-  score.feasible = evaluation.feasible;
-  score.violation = judged.violation;
-  score.work = judged.work;
-  const std::optional<Metrics>& worst = evaluation.worst_case;
-  for (const Objective& o : model_->spec.objectives) {
-    score.objectives.push_back(objective(model_->spec.robust && worst ? *worst : evaluation.metrics, o.name));
-    if (worst) score.worst_case.push_back(objective(*worst, o.name));
-  }
-  score.bites = evaluation.bites;
-  if (!model_->spec.uncertainty.any()) score.worst_case = score.objectives;
-  return score;
+  return score_of(model_->spec, judge(model_->spec, candidate.topology, all_values(*this, candidate), false),
+                  objective);
 }
 
 AssemblyEvaluation AssemblyProblem::evaluate(int topology, std::span<const double> values) const {

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "analysis/insertion/exclusion.hpp"
+#include "applications/shared/judging.hpp"
 #include "applications/shared/starts.hpp"
-#include "applications/shared/worst_members.hpp"
 
 namespace formotion::assembly {
 namespace {
@@ -152,16 +152,11 @@ class DesignJudge {
   }
 
   void worst_case(AssemblyEvaluation& evaluation) {
-    if (!spec_.uncertainty.any() || spec_.objectives.empty()) return;
-    const Objective& first = spec_.objectives.front();
-    const auto loss = [&](const Metrics& metrics) { return first.loss(objective(metrics, first.name)); };
-    Metrics worst = evaluation.metrics;
-    evaluation.bites = judge_ends(spec_.uncertainty, "center_mm", loss(worst), [&](const Member& member) {
+    judge_worst_case(spec_, "center_mm", objective, evaluation, [&](const Member& member, Metrics& worst) {
       const Metrics metrics = member_metrics(member, nullptr);
       take_worse(worst, metrics);
-      return loss(metrics);
+      return metrics;
     });
-    evaluation.worst_case = worst;
   }
 
   static void take_worse(Metrics& worst, const Metrics& other) {
@@ -193,13 +188,8 @@ class DesignJudge {
       const double by = std::max(kWithin_mm, result.deepest.insertion.deepest_mm - spec_.goal.depth_mm + 1);
       add("a part held wrongly (" + result.aspect + ") reaches the depth", "/goal/never", by);
     }
-    for (const Bound& bound : spec_.bounds) {
-      const double value = objective(metrics, bound.metric);
-      if (bound.min && value < *bound.min)
-        add(bound.metric + " is below its bound", "/goal/require/" + bound.metric, *bound.min - value);
-      if (bound.max && value > *bound.max)
-        add(bound.metric + " is above its bound", "/goal/require/" + bound.metric, value - *bound.max);
-    }
+    judge_bounds(
+        spec_.bounds, [&](const std::string& metric) { return objective(metrics, metric); }, add);
   }
 
   // Where starts that assemble no longer do when friction grows: halved down, among the corners of the box.

@@ -45,22 +45,6 @@ int edge_number(const std::vector<Loop>& loops, const Point& p, const Point& alo
   return -1;
 }
 
-// The part's loops as the problem file has them, about the centre of mass; those of one layer after those of another.
-std::vector<Loop> written_part(const AspectSpec& spec, const AspectShape& shape, std::span<const double> values) {
-  std::vector<Loop> loops;
-  const auto add = [&](const AffineLoop& outline, const std::vector<AffineLoop>& holes) {
-    loops.push_back(evaluated(outline, values));
-    for (const AffineLoop& hole : holes) loops.push_back(evaluated(hole, values));
-  };
-  if (spec.layers.empty()) add(spec.outline_mm, spec.holes_mm);
-  for (const LayerSpec& layer : spec.layers) add(layer.outline_mm, layer.holes_mm);
-  const Point com = bounding_box(loops.front()).min - bounding_box(shape.bodies.front().outer).min;
-  for (Loop& loop : loops) {
-    for (Point& p : loop) p -= com;
-  }
-  return loops;
-}
-
 // A feature's obstacles as the problem file has them, in the world.
 std::vector<Loop> written_obstacles(const FeatureSpec& feature, double start_mm, std::span<const double> values) {
   std::vector<Loop> loops;
@@ -77,7 +61,7 @@ class Labels {
   Labels(const SpaceScene& scene, const World& world, int aspect)
       : scene_(scene),
         world_(world),
-        part_(written_part(scene.spec.part.aspects[aspect], scene.part.shapes[aspect], scene.values)) {}
+        part_(written_loops(scene.spec.part.aspects[aspect], scene.part.shapes[aspect], scene.values)) {}
 
   FacetPicture operator()(const ContactPair& pair) const {
     FacetPicture facet;

@@ -10,13 +10,12 @@
 #include "analysis/energy/vibrating_table.hpp"
 #include "applications/nest/drops.hpp"
 #include "applications/nest/scene.hpp"
+#include "applications/shared/judging.hpp"
 #include "applications/shared/starts.hpp"
-#include "applications/shared/worst_members.hpp"
 
 namespace formotion::nest {
 namespace {
 
-constexpr double kAtSeat_mm = 0.05;  // a rest this near to the seat as written is the seat's
 constexpr double kTouches_mm = 1e-6;
 
 struct Effort {
@@ -88,7 +87,7 @@ class DesignJudge {
     const Point off = rotated(member.centre_off_mm, written_.theta_rad);
     written_.x_mm += off.x();
     written_.y_mm += off.y();
-    at_seat_mm_ = kAtSeat_mm + 2 * std::abs(member.grow_mm);
+    at_seat_mm_ = spec_.goal.seat.near_mm + 2 * std::abs(member.grow_mm);
     std::vector<NestRest> rests;
     for (const auto& scene : scenes) {
       const std::vector<NestRest> found = rests_of(*scene);
@@ -185,6 +184,8 @@ class DesignJudge {
       rest.escape_high_mm = bracket.upper_mm;
       rest.why = bracket.why;
       if (in_detail_) rest.way_out = std::move(bracket.path);
+      // No way leads out of it, so none leads in.
+      if (!std::isfinite(rest.escape_low_mm)) continue;
       if (rest.is_seat) {
         metrics.goal_escape_height_mm = rest.escape_low_mm;
       } else if (rest.escape_high_mm) {
@@ -280,7 +281,7 @@ class DesignJudge {
       if (rest.is_seat) {
         window.keeps_up_to_mm = amplitude_for_rise_mm(rest.escape_low_mm, table.frequency_hz, shaken.restitution);
       } else {
-        all_known = all_known && rest.escape_high_mm;
+        all_known = all_known && (rest.escape_high_mm || !std::isfinite(rest.escape_low_mm));
         wrong = std::max(wrong, rest.escape_high_mm.value_or(0));
       }
       fates.push_back({rest.drop_share, rest.is_seat, !rest.is_seat && rest.escape_low_mm < window.throws_mm});
@@ -291,16 +292,11 @@ class DesignJudge {
   }
 
   void worst_case(NestEvaluation& evaluation) {
-    if (!spec_.uncertainty.any() || spec_.objectives.empty()) return;
-    const Objective& first = spec_.objectives.front();
-    const auto loss = [&](const Metrics& metrics) { return first.loss(objective(metrics, first.name)); };
-    Metrics worst = evaluation.metrics;
-    evaluation.bites = judge_ends(spec_.uncertainty, "com_mm", loss(worst), [&](const Member& member) {
+    judge_worst_case(spec_, "com_mm", objective, evaluation, [&](const Member& member, Metrics& worst) {
       const Metrics metrics = member_metrics(member, nullptr);
       take_worse(worst, metrics);
-      return loss(metrics);
+      return metrics;
     });
-    evaluation.worst_case = worst;
   }
 
   // What a member does not have is missing in the worst case, too.
@@ -344,6 +340,10 @@ class DesignJudge {
     if (is_pallet()) {
       if (!metrics.capture_fraction || !(*metrics.capture_fraction > 0))
         add("no start ends in the seat", "/goal/starts", 1);
+      if (own != evaluation.rests.end() && !metrics.goal_escape_height_mm)
+        add(std::isfinite(own->escape_low_mm) ? "at the worst of what is uncertain the part does not rest in the seat"
+                                              : "no way leads out of the seat, nor into it",
+            "/goal/seat", 5);
       if (metrics.goal_escape_height_mm && !metrics.selectivity_mm)
         add("no way out was found for a wrong rest", "/goal/seat", 5);
       if (metrics.selectivity_mm && !(*metrics.selectivity_mm > 0))
@@ -351,13 +351,8 @@ class DesignJudge {
     } else if (!metrics.seated_fraction || !(*metrics.seated_fraction > 0)) {
       add("no start ends in the seat", "/goal/starts", 1);
     }
-    for (const Bound& bound : spec_.bounds) {
-      const double value = objective(metrics, bound.metric);
-      if (bound.min && value < *bound.min)
-        add(bound.metric + " is below its bound", "/goal/require/" + bound.metric, *bound.min - value);
-      if (bound.max && value > *bound.max)
-        add(bound.metric + " is above its bound", "/goal/require/" + bound.metric, value - *bound.max);
-    }
+    judge_bounds(
+        spec_.bounds, [&](const std::string& metric) { return objective(metrics, metric); }, add);
   }
 
   static const Scene& scene_named(const std::vector<std::unique_ptr<Scene>>& scenes, const std::string& aspect) {
@@ -371,7 +366,7 @@ class DesignJudge {
   Effort effort_;
   std::vector<AspectShape> shapes_;
   Configuration written_;  // the seat, of the member that is judged
-  double at_seat_mm_ = kAtSeat_mm;
+  double at_seat_mm_ = 0;
   std::int64_t work_ = 0;
 };
 

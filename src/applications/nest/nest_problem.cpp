@@ -5,6 +5,7 @@
 
 #include "applications/nest/judge.hpp"
 #include "applications/nest/scene.hpp"
+#include "applications/shared/judging.hpp"
 #include "applications/shared/used_variables.hpp"
 
 namespace formotion::nest {
@@ -62,20 +63,8 @@ std::span<const Objective> NestProblem::objectives() const { return model_->spec
 const NestSpec& NestProblem::spec() const { return model_->spec; }
 
 Score NestProblem::score(const Candidate& candidate, Memory*) const {
-  const Judged judged = judge(model_->spec, candidate.topology, all_values(*this, candidate), false);
-  const NestEvaluation& evaluation = judged.evaluation;
-  Score score;
-  score.feasible = evaluation.feasible;
-  score.violation = judged.violation;
-  score.work = judged.work;
-  const std::optional<Metrics>& worst = evaluation.worst_case;
-  for (const Objective& o : model_->spec.objectives) {
-    score.objectives.push_back(objective(model_->spec.robust && worst ? *worst : evaluation.metrics, o.name));
-    if (worst) score.worst_case.push_back(objective(*worst, o.name));
-  }
-  score.bites = evaluation.bites;
-  if (!model_->spec.uncertainty.any()) score.worst_case = score.objectives;
-  return score;
+  return score_of(model_->spec, judge(model_->spec, candidate.topology, all_values(*this, candidate), false),
+                  objective);
 }
 
 NestEvaluation NestProblem::evaluate(int topology, std::span<const double> values) const {

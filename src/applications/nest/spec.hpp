@@ -32,6 +32,7 @@ struct SeatSpec {
   double orientation_rad = 0;
   // A part is seated if none of its points is farther than this from where it is in the seat.
   double within_mm = 1;
+  double near_mm = 0.05;  // a rest this near to the seat as written is the seat's
 };
 
 struct GoalSpec {
