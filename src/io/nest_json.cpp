@@ -113,11 +113,14 @@ Json evaluation_json(const NestProblem& problem, int topology, std::span<const d
              {"theta_deg", degrees_json(start.theta_rad)},
              {"outcome", name(start.outcome)}};
     one["end"] = pose_json(start.end);
+    one["sure"] = start.is_sure;
+    one["pushed"] = name(start.pushed);
     json["starts"].push_back(std::move(one));
   }
   json["region"] = region_json(evaluation.regions, evaluation.region_y_mm, kNestOutcomes,
                                [](int outcome) { return name(static_cast<NestOutcome>(outcome)); });
   json["sure_fraction"] = number_json(evaluation.sure_fraction);
+  json["certain_fraction"] = number_json(evaluation.certain_fraction);
   if (is_pallet) {
     json["window"] = evaluation.window ? window_json(*evaluation.window) : Json(nullptr);
     return json;

@@ -55,6 +55,9 @@ void read_nest_environment(const Json* value, nest::NestSpec& spec, ReadContext&
   if (is_pallet) {
     environment.tilt_deg = read_uncertain(object, "tilt_deg", {-90, 90, false}, {}, spec.uncertainty, context);
     if (const Json* table = object.find("table")) read_table(*table, spec, context);
+  } else {
+    environment.restitution =
+        read_uncertain(object, "restitution", kShare, environment.restitution, spec.uncertainty, context);
   }
   object.finish();
 }
@@ -73,11 +76,9 @@ void read_nest_goal(const Json& value, nest::NestSpec& spec, ReadContext& contex
 
 void read_nest_uncertainty(const Json* value, nest::NestSpec& spec, ReadContext& context) {
   if (!value) return;
-  std::vector<std::pair<std::string, Range>> keys{{"friction", kFriction}, {"gravity_deg", kTurn_deg}};
-  if (spec.purpose == nest::Purpose::Pallet) {
-    keys.emplace_back("tilt_deg", Range{-90, 90, false});
-    keys.emplace_back("restitution", kShare);
-  }
+  std::vector<std::pair<std::string, Range>> keys{
+      {"friction", kFriction}, {"gravity_deg", kTurn_deg}, {"restitution", kShare}};
+  if (spec.purpose == nest::Purpose::Pallet) keys.emplace_back("tilt_deg", Range{-90, 90, false});
   read_shape_uncertainty(*value, "com_mm", keys, spec.uncertainty, context);
 }
 

@@ -82,5 +82,11 @@ export function nestStarts(nest, fixed) {
 
 export function sureWords(nest) {
   if (nest.sure_fraction === null || nest.sure_fraction === undefined) return '';
-  return `From ${percent(nest.sure_fraction)} of the starts looked at the part must end in the seat by energy alone, whatever friction and impacts do.`;
+  const certain = nest.certain_fraction;
+  return (
+    `From ${percent(nest.sure_fraction)} of the starts looked at the part must end in the seat by energy alone, whatever friction and impacts do.` +
+    (certain === null || certain === undefined
+      ? ''
+      : ` Without bouncing, ${percent(certain)} end in it for every direction and friction asked for.`)
+  );
 }

@@ -53,17 +53,21 @@ EscapeBracket rise_between(const ContactSpace& space, const Gravity& gravity, co
 
 bool surely_captured(const ContactSpace& space, const Gravity& gravity, const Configuration& at, double rise_mm,
                      const Configuration& from, const EscapeOptions& options) {
-  const double falls_from = gravity.height_mm(from);
-  if (!(falls_from >= gravity.height_mm(at) - kRise_mm && falls_from < gravity.height_mm(at) + rise_mm)) return false;
+  return surely_captured(space, gravity, at, rise_mm, from, gravity.height_mm(from), options);
+}
+
+bool surely_captured(const ContactSpace& space, const Gravity& gravity, const Configuration& at, double rise_mm,
+                     const Configuration& from, double energy_mm, const EscapeOptions& options) {
+  if (!(energy_mm >= gravity.height_mm(at) - kRise_mm && energy_mm < gravity.height_mm(at) + rise_mm)) return false;
   if (!is_free(space.part, space.obstacles, from) || !is_free(space.part, space.obstacles, at)) return false;
   LaidOutSearch laid_out(space, gravity, {from, at}, std::nullopt, options);
   WayDemand demand = demand_of(options);
   demand.gap_mm = 0;
   demand.want_path = true;
-  demand.most_mm = falls_from + kRise_mm;
+  demand.most_mm = energy_mm + kRise_mm;
   const WayEnd start = laid_out.heights().place_of(from), end = laid_out.heights().place_of(at);
   const LowestWay way = laid_out.search().lowest_way({start}, {end}, demand);
-  return way.upper_mm && *way.upper_mm <= falls_from + kRise_mm;
+  return way.upper_mm && *way.upper_mm <= energy_mm + kRise_mm;
 }
 
 }  // namespace formotion

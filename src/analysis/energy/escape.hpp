@@ -69,5 +69,8 @@ MergeTree merge_tree(const ContactSpace& space, const Gravity& gravity, const st
 // False also where that is not shown within the options.
 bool surely_captured(const ContactSpace& space, const Gravity& gravity, const Configuration& at, double rise_mm,
                      const Configuration& from, const EscapeOptions& options = {});
+// The same of a part that passes `from` with the energy of one that is at rest at the height energy_mm.
+bool surely_captured(const ContactSpace& space, const Gravity& gravity, const Configuration& at, double rise_mm,
+                     const Configuration& from, double energy_mm, const EscapeOptions& options = {});
 
 }  // namespace formotion

@@ -52,6 +52,10 @@ struct StartResult {
   double x_mm = 0, y_mm = 0, theta_rad = 0;  // errors
   NestOutcome outcome = NestOutcome::Undecided;
   Configuration end;  // where it rests
+  // In detail. Whether it must end in the seat, by energy alone; and whether it does for every direction and friction
+  // that is asked for, without bouncing.
+  bool is_sure = false;
+  Verdict pushed = Verdict::Impossible;
 };
 
 struct WrongSet {
@@ -88,9 +92,8 @@ struct NestEvaluation {
   std::vector<WrongSet> wrong;  // fixtures
   Verdict seat_holds = Verdict::Impossible;
   std::optional<ShakingWindow> window;
-  // Fixtures and pallets, in detail: the share of the starts from which the part must end in the seat by energy alone,
-  // whatever friction and impacts do.
-  std::optional<double> sure_fraction;
+  // In detail, shares of the starts: of those that are sure, and of those that are certain.
+  std::optional<double> sure_fraction, certain_fraction;
 };
 
 }  // namespace formotion::nest

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "analysis/contact/clearance.hpp"
+#include "analysis/energy/push_backprojection.hpp"
 #include "analysis/energy/rests.hpp"
 #include "analysis/energy/vibrating_table.hpp"
 #include "applications/nest/drops.hpp"
@@ -242,10 +243,11 @@ class DesignJudge {
       for (std::size_t i = 0; i < own.size(); ++i) rests[own[i]].drop_share = scene->shape.probability * shares[i];
     }
     sure(seated, rests, seat, evaluation);
+    certain(seated, seat, evaluation);
     if (is_pallet() && spec_.environment.table) evaluation.window = window(rests);
   }
 
-  // By energy alone: of the starts that were listed.
+  // Of the starts that were listed: by energy alone, with what the first impact takes of it.
   void sure(const Scene& seated, const std::vector<NestRest>& rests, const Configuration& seat,
             NestEvaluation& evaluation) {
     const auto own = std::find_if(rests.begin(), rests.end(), [](const NestRest& rest) { return rest.is_seat; });
@@ -259,14 +261,38 @@ class DesignJudge {
       if (other.is_seat || other.aspect != own->aspect) continue;
       rise = std::min(rise, rise_between(*seated.space, seated.gravity, seat, other.at, options).lower_mm);
     }
-    const Configuration& written = written_;
-    int captured = 0;
-    for (const StartResult& start : evaluation.starts) {
-      const Configuration from{written.x_mm + start.x_mm, written.y_mm + start.y_mm,
-                               written.theta_rad + start.theta_rad};
-      captured += surely_captured(*seated.space, seated.gravity, seat, rise, from, options);
+    const ImpactLaw law = impact_law(spec_, values_, seated);
+    for (StartResult& start : evaluation.starts) {
+      const Configuration from = start_at(start);
+      start.is_sure = surely_captured(*seated.space, seated.gravity, seat, rise, from, options);
+      if (start.is_sure) continue;
+      const auto landed = landing(*seated.space, seated.gravity, from, law);
+      start.is_sure =
+          landed && surely_captured(*seated.space, seated.gravity, seat, rise, landed->at, landed->energy_mm, options);
     }
-    evaluation.sure_fraction = static_cast<double>(captured) / static_cast<double>(evaluation.starts.size());
+    evaluation.sure_fraction = share_of(evaluation.starts, [](const StartResult& start) { return start.is_sure; });
+  }
+
+  // For every direction and friction that is asked for, without bouncing.
+  void certain(const Scene& seated, const Configuration& seat, NestEvaluation& evaluation) {
+    if (evaluation.starts.empty()) return;
+    const PushSet push = push_set(spec_, values_);
+    const double within = spec_.goal.seat.within_mm;
+    for (StartResult& start : evaluation.starts) {
+      start.pushed = ends_in(*seated.space, push, start_at(start),
+                             [&](const Configuration& q) { return apart_mm(seated, q, seat) <= within; });
+    }
+    evaluation.certain_fraction =
+        share_of(evaluation.starts, [](const StartResult& start) { return start.pushed == Verdict::Certain; });
+  }
+
+  Configuration start_at(const StartResult& start) const {
+    return {written_.x_mm + start.x_mm, written_.y_mm + start.y_mm, written_.theta_rad + start.theta_rad};
+  }
+
+  template <typename Is>
+  static double share_of(const std::vector<StartResult>& starts, const Is& is) {
+    return static_cast<double>(std::count_if(starts.begin(), starts.end(), is)) / static_cast<double>(starts.size());
   }
 
   ShakingWindow window(const std::vector<NestRest>& rests) const {

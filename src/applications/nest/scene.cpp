@@ -26,6 +26,15 @@ Point direction(double degrees) {
   return {std::cos(radians(degrees)), std::sin(radians(degrees))};
 }
 
+// Of what the environment's key may be, at this member of the rest.
+std::pair<double, double> ends(const NestSpec& spec, std::span<const double> values, const Number& number,
+                               const std::string& key, const Member& member = {}) {
+  const auto interval = spec.uncertainty.intervals.find(key);
+  if (!member.values.count(key) && interval != spec.uncertainty.intervals.end()) return interval->second;
+  const double value = member.value_of(key, number.value(values));
+  return {value, value};
+}
+
 }  // namespace
 
 Configuration seat_of(const NestSpec& spec, std::span<const double> values) {
@@ -71,18 +80,17 @@ std::unique_ptr<Scene> scene_of(const NestSpec& spec, int topology, std::span<co
 
 PushSet push_set(const NestSpec& spec, std::span<const double> values, const Member& member) {
   const Environment& environment = spec.environment;
-  const auto ends = [&](const Number& number, const std::string& key) {
-    const auto interval = spec.uncertainty.intervals.find(key);
-    if (member.values.count(key) || interval == spec.uncertainty.intervals.end()) {
-      const double value = member.value_of(key, number.value(values));
-      return std::pair(value, value);
-    }
-    return interval->second;
-  };
-  const auto [from, to] = ends(environment.gravity_deg, "gravity_deg");
-  const auto [tilt_from, tilt_to] = ends(environment.tilt_deg, "tilt_deg");
-  const auto [least, most] = ends(environment.friction, "friction");
+  const auto [from, to] = ends(spec, values, environment.gravity_deg, "gravity_deg", member);
+  const auto [tilt_from, tilt_to] = ends(spec, values, environment.tilt_deg, "tilt_deg", member);
+  const auto [least, most] = ends(spec, values, environment.friction, "friction", member);
   return {radians(from + tilt_from), radians(to + tilt_to), least, most};
+}
+
+ImpactLaw impact_law(const NestSpec& spec, std::span<const double> values, const Scene& scene) {
+  const Environment& environment = spec.environment;
+  const Number& restitution = environment.table ? environment.table->restitution : environment.restitution;
+  return {ends(spec, values, restitution, "restitution").second,
+          ends(spec, values, environment.friction, "friction").second, scene.part.gyration_mm};
 }
 
 Configuration reduced(const Configuration& q, int symmetry) {

@@ -1,6 +1,7 @@
 // A nest with one aspect of the part in it, for one member of what is uncertain.
 #pragma once
 
+#include "analysis/energy/first_impact.hpp"
 #include "applications/nest/nest_problem.hpp"
 
 namespace formotion::nest {
@@ -13,5 +14,7 @@ Configuration seat_of(const NestSpec& spec, std::span<const double> values);
 
 // The directions and frictions that pushes can have, at this member of the rest.
 PushSet push_set(const NestSpec& spec, std::span<const double> values, const Member& member = {});
+// The liveliest impacts of the part on the nest, standing still.
+ImpactLaw impact_law(const NestSpec& spec, std::span<const double> values, const Scene& scene);
 
 }  // namespace formotion::nest

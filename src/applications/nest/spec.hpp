@@ -22,7 +22,8 @@ struct TableSpec {
 struct Environment {
   Number gravity_deg{{-90, {}}, {}};  // direction of gravity, or of the push
   Number friction{{0.2, {}}, {}};
-  Number tilt_deg;  // pallets: added to gravity's direction
+  Number tilt_deg;                  // pallets: added to gravity's direction
+  Number restitution{{1, {}}, {}};  // fixtures; pallets: the table's
   std::optional<TableSpec> table;
 };
 
