@@ -3,6 +3,7 @@
 // time of this machine.
 #include <benchmark/benchmark.h>
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -45,7 +46,8 @@ void brackets(benchmark::State& state) {
     for (int i = 0; i < kScenes; ++i) {
       const EscapeBracket found = scenes().nests[i]->escape(scenes().starts[i], options);
       cells += found.cells;
-      wide += options.want_path && (!found.upper_mm || *found.upper_mm - found.lower_mm > options.gap_mm);
+      wide += options.want_path && std::isfinite(found.lower_mm) &&
+              (!found.upper_mm || *found.upper_mm - found.lower_mm > options.gap_mm);
     }
   }
   state.SetItemsProcessed(state.iterations() * kScenes);

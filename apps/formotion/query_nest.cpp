@@ -1,6 +1,7 @@
 // query: what fixtures and pallets answer.
 #include <map>
 
+#include "analysis/contact/clearance.hpp"
 #include "analysis/energy/escape.hpp"
 #include "applications/nest/drops.hpp"
 #include "io/json_values.hpp"
@@ -10,6 +11,20 @@ namespace formotion {
 namespace {
 
 using namespace nest;
+
+constexpr int kMostMoves = 50;  // a wedge takes some, each shorter than the one before
+
+// Numbers are rounded, so that a part at rest may overlap a little: moved out of that, by the least translations.
+Configuration moved_out(const Scene& scene, Configuration q) {
+  for (int i = 0; i < kMostMoves; ++i) {
+    const Clearance near = clearance(scene.part, scene.obstacles, q);
+    if (near.mm >= 0) break;
+    const Point by = near.on_obstacles - near.on_part;
+    q.x_mm += by.x();
+    q.y_mm += by.y();
+  }
+  return q;
+}
 
 class NestAnswers final : public Answers {
  public:
@@ -50,10 +65,12 @@ class NestAnswers final : public Answers {
     const Scene& scene = *known.scene;
     const SeatSpec& seat = problem_.spec().goal.seat;
     const double within = aspect == seat.aspect ? seat.within_mm : 0;
-    const DropEnd end = dropped(scene, problem_.seat(chosen_.values), within, q);
+    const Configuration from = moved_out(scene, q);
+    if (overlaps(known.queried, from, 0, issues)) return {};
+    const DropEnd end = dropped(scene, problem_.seat(chosen_.values), within, from);
     OrderedJson answer =
-        way_answer(formotion::project(*scene.space, {scene.gravity.down, scene.friction}, q), name(end.outcome));
-    const EscapeBracket way_out = escape(*scene.space, scene.gravity, q, scene.outside);
+        way_answer(formotion::project(*scene.space, {scene.gravity.down, scene.friction}, from), name(end.outcome));
+    const EscapeBracket way_out = escape(*scene.space, scene.gravity, from, scene.outside);
     answer["escape_height_mm"] = {number_json(way_out.lower_mm), number_json(way_out.upper_mm)};
     return answer;
   }

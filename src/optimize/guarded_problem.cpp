@@ -58,6 +58,7 @@ class GuardedPieces final : public SmoothPieces {
       : pieces_(std::move(pieces)), subject_(std::move(subject)), marks_(marks) {}
   int residuals() const override { return pieces_->residuals(); }
   bool lasts(int residual) const override { return pieces_->lasts(residual); }
+  int steps() const override { return pieces_->steps(); }
   bool evaluate(std::span<const double> values, double* residuals, double* jacobian) const override {
     const CrashMarks::Scoring scoring(marks_, subject_);
     return pieces_->evaluate(values, residuals, jacobian);

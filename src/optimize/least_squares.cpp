@@ -11,10 +11,10 @@
 namespace formotion {
 namespace {
 
-constexpr int kIterations = 20;         // of Ceres, between two looks at what decides
 constexpr double kFirstReach = 0.2;     // how far one step may go, as a fraction of every range
 constexpr int kHalvings = 4;            // of a step that does not make the candidate better
-constexpr double kFirstRaise = 10;      // of the objective, in what matters to the user
+constexpr double kFirstRaise = 10;      // of the objective, in what matters to the user, ...
+constexpr double kFirstShare = 0.1;     // ... of what shall become small this share of it, if that is more
 constexpr std::size_t kRemembered = 6;  // earlier looks whose lasting residuals still count
 constexpr int kMostFailures = 3;        // steps in a row of which no part makes it better
 
@@ -33,7 +33,11 @@ class Residuals final : public ceres::CostFunction {
     const Candidate candidate = space_.at(std::span(parameters[0], static_cast<std::size_t>(space_.dimensions())));
     double* jacobian = jacobians ? jacobians[0] : nullptr;
     std::vector<double> by_values(jacobian ? low_.size() * static_cast<std::size_t>(pieces_.residuals()) : 0);
-    if (!pieces_.evaluate(candidate.values, residuals, jacobian ? by_values.data() : nullptr)) return false;
+    if (!pieces_.evaluate(candidate.values, residuals, jacobian ? by_values.data() : nullptr)) {
+      // No slopes where there are values: Ceres is to end here and keep what it has come to, not to fail.
+      if (!jacobian || !pieces_.evaluate(candidate.values, residuals, nullptr)) return false;
+      std::fill(by_values.begin(), by_values.end(), 0.0);
+    }
     for (int r = 0; lasting_only_ && r < pieces_.residuals(); ++r) {
       if (pieces_.lasts(r)) continue;
       residuals[r] = 0;
@@ -54,8 +58,15 @@ class Residuals final : public ceres::CostFunction {
   std::vector<double> low_, high_;
 };
 
+bool any_lasts(const SmoothPieces& pieces) {
+  for (int r = 0; r < pieces.residuals(); ++r) {
+    if (pieces.lasts(r)) return true;
+  }
+  return false;
+}
+
 // Where the residuals of the last look, and the lasting ones of those before it, are least within reach of a point;
-// none where Ceres fails.
+// none where nothing less was found.
 std::optional<std::vector<double>> fitted(const std::deque<std::unique_ptr<SmoothPieces>>& looks,
                                           const DesignSpace& space, const std::vector<double>& from, double reach) {
   std::vector<double> unit = from;
@@ -70,7 +81,7 @@ std::optional<std::vector<double>> fitted(const std::deque<std::unique_ptr<Smoot
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.num_threads = 1;
-  options.max_num_iterations = kIterations;
+  options.max_num_iterations = looks.back()->steps();
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
@@ -89,11 +100,14 @@ void fit(const Problem& problem, const SearchTask& task, const std::function<Sco
   const SmoothProblem* smooth = problem.smooth();
   if (!smooth || space.dimensions() == 0) return;
   std::int64_t left = task.evaluations - 1;
-  double reach = kFirstReach, raise = kFirstRaise * objective.resolution;
+  // Resolutions are what is told apart: of forces and work, that are sums over a way, far less than one step changes.
+  const double share = objective.maximise ? 0 : kFirstShare * std::abs(best_score.objectives[task.merit.focus]);
+  double reach = kFirstReach, raise = std::max(kFirstRaise * objective.resolution, share);
   std::deque<std::unique_ptr<SmoothPieces>> looks;
   for (int failures = 0; failures < kMostFailures && left > 0;) {
     const double aim = best_score.objectives[task.merit.focus] + (objective.maximise ? raise : -raise);
-    looks.push_back(smooth->pieces(space.at(best), {task.merit.focus, aim}));
+    std::erase_if(looks, [](const auto& pieces) { return !any_lasts(*pieces); });
+    looks.push_back(smooth->pieces(space.at(best), {task.merit.focus, aim, task.merit.at_most}));
     if (!looks.back()) return;
     if (looks.size() > kRemembered) looks.pop_front();
     const auto end = fitted(looks, space, best, reach);

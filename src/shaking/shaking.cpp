@@ -52,7 +52,9 @@ Shaken shake(const ShakenScene& scene, const Configuration& start, const ShakeOp
   Shaken shaken;
   shaken.last = start;
   const long steps = std::lround(options.seconds / options.step_s);
-  for (long i = 0; i < steps; ++i) {
+  const long look_every = std::max(1L, std::lround(options.look_every_s / options.step_s));
+  bool was_right = false;
+  for (long i = 1; i <= steps; ++i) {
     world.step();
     shaken.last = world.part();
     shaken.highest_mm = std::max(shaken.highest_mm, scene.gravity.height_mm(shaken.last) - height);
@@ -61,8 +63,39 @@ Shaken shake(const ShakenScene& scene, const Configuration& start, const ShakeOp
       shaken.left_after_s = world.time_s();
       break;
     }
+    if (!options.is_right || i % look_every != 0) continue;
+    const bool is_right = options.is_right(settled(scene, shaken.last, options.step_s));
+    if (is_right && was_right) {
+      shaken.right_after_s = world.time_s();
+      break;
+    }
+    was_right = is_right;
   }
   return shaken;
+}
+
+Configuration settled(const ShakenScene& scene, const Configuration& from, double step_s) {
+  constexpr double kMost_s = 2, kStill_s = 0.03, kStill_mm_s = 2;
+  ShakenScene still = scene;
+  still.friction = 0;
+  still.table = {0, 0, 0};
+  ShakenWorld world(still, {from, {}, 0}, step_s);
+  const double size = reach(scene.part);
+  double moved_s = 0;
+  while (world.time_s() < kMost_s && world.time_s() - moved_s < kStill_s) {
+    world.step();
+    const Twist v = world.velocity();
+    if (v.linear.norm() + size * std::abs(v.angular) > kStill_mm_s) moved_s = world.time_s();
+  }
+  return world.part();
+}
+
+ShareInterval wilson_95(int count, int runs) {
+  if (runs <= 0) return {};
+  const double n = runs, z = 1.959963984540054, p = count / n;
+  const double middle = (p + z * z / (2 * n)) / (1 + z * z / n);
+  const double half = z / (1 + z * z / n) * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
+  return {std::max(0.0, middle - half), std::min(1.0, middle + half)};
 }
 
 ShakenShare share_that_leaves(const ShakenScene& scene, const Configuration& start, int runs,
@@ -75,18 +108,19 @@ ShakenShare share_that_leaves(const ShakenScene& scene, const Configuration& sta
     own.seed = mixed(options.seed) + static_cast<std::uint64_t>(run);
     const Shaken shaken = shake(scene, start, own);
     share.highest_mm = std::max(share.highest_mm, shaken.highest_mm);
-    if (!shaken.left_after_s) continue;
-    ++share.left;
-    seconds += *shaken.left_after_s;
+    share.left += shaken.left_after_s.has_value();
+    share.right += shaken.right_after_s.has_value();
+    const double after = shaken.left_after_s.value_or(shaken.right_after_s.value_or(0));
+    seconds += after;
+    share.last_seconds = std::max(share.last_seconds, after);
   }
-  if (share.left > 0) share.mean_seconds = seconds / share.left;
+  const int gone = share.left + share.right;
+  if (gone > 0) share.mean_seconds = seconds / gone;
   if (runs <= 0) return share;
-  const double n = runs, z = 1.959963984540054, p = share.left / n;
-  const double middle = (p + z * z / (2 * n)) / (1 + z * z / n);
-  const double half = z / (1 + z * z / n) * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
-  share.share = p;
-  share.low = std::max(0.0, middle - half);
-  share.high = std::min(1.0, middle + half);
+  share.share = static_cast<double>(gone) / runs;
+  const ShareInterval interval = wilson_95(gone, runs);
+  share.low = interval.low;
+  share.high = interval.high;
   return share;
 }
 

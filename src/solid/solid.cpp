@@ -13,6 +13,11 @@
 #include "analysis/geometry/boolean.hpp"
 #include "solid/grid_segments.hpp"
 
+// Its predicates are exact only with -frounding-math, which g++ tells of.
+#if defined(__GNUC__) && !defined(__clang__) && !defined(__ROUNDING_MATH__)
+#error "CGAL needs -frounding-math: link CGAL::CGAL"
+#endif
+
 namespace formotion {
 namespace {
 

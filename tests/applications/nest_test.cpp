@@ -26,6 +26,14 @@ NestSpec block_in_pocket(double depth, double width, const std::string& kind, co
 
 NestEvaluation judged(const NestSpec& spec) { return NestProblem(spec).evaluate(0, {}); }
 
+// Near the middle of a wide pocket, 6 mm deep.
+NestEvaluation dropped_from_8_mm(const std::string& environment) {
+  NestSpec spec = block_in_pocket(6, 30, "fixture", R"(, "environment": )" + environment);
+  spec.goal.starts.x_mm = {-0.5, 0.5};
+  spec.goal.starts.y_mm = {8, 8};
+  return judged(spec);
+}
+
 }  // namespace
 
 TEST_CASE("a block that fits its pocket closely must rise by the pocket's depth to get out") {
@@ -99,4 +107,18 @@ TEST_CASE("expected drops are one over the right share unless a wrong rest keeps
   const Filling trapped = filling({{0.2, true, false}, {0.6, false, false}});
   CHECK_FALSE(trapped.drops_per_part);
   CHECK(trapped.right_share == Approx(0.25));
+}
+
+TEST_CASE("a start over the pass is sure where the first impact takes enough of its fall") {
+  CHECK(dropped_from_8_mm(R"({"friction": 0.2})").sure_fraction == 0.0);
+  // It keeps 1 - 0.96 / (1 + 1.5 + 0.2 * 1.5) of 8 mm, less than the 6 mm of the rim.
+  CHECK(dropped_from_8_mm(R"({"friction": 0.2, "restitution": 0.2})").sure_fraction == 1.0);
+  CHECK(dropped_from_8_mm(R"({"friction": 0.2, "restitution": [0.1, 0.9]})").sure_fraction == 0.0);
+}
+
+TEST_CASE("a start is certain if every direction and friction of the problem ends in the seat") {
+  CHECK(dropped_from_8_mm(R"({"friction": 0.2})").certain_fraction == 1.0);
+  CHECK(dropped_from_8_mm(R"({"friction": [0.1, 0.3], "gravity_deg": [-92, -88]})").certain_fraction == 1.0);
+  // It slides where that is steep.
+  CHECK(dropped_from_8_mm(R"({"friction": 0.2, "gravity_deg": [-105, -75]})").certain_fraction == 0.0);
 }

@@ -4,9 +4,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 
@@ -58,6 +60,35 @@ Said run_and_signal(const std::vector<std::string>& arguments, int signal, int a
   ::usleep(static_cast<useconds_t>(1000 * after_ms));
   ::kill(child, signal);
   return finish(child, folder);
+}
+
+std::vector<nlohmann::ordered_json> ask_all(const std::string& problem,
+                                            const std::vector<nlohmann::ordered_json>& questions) {
+  std::string input;
+  for (const nlohmann::ordered_json& question : questions) input += question.dump() + "\n";
+  const Said said = run({"query", problem}, input);
+  if (said.code != 0 || !said.err.empty()) throw std::runtime_error("query failed: " + said.err);
+  std::vector<nlohmann::ordered_json> answers;
+  std::istringstream stream(said.out);
+  for (std::string line; std::getline(stream, line);) answers.push_back(nlohmann::ordered_json::parse(line));
+  if (answers.size() != questions.size()) throw std::runtime_error("not an answer a line: " + said.out);
+  return answers;
+}
+
+nlohmann::ordered_json question(const std::string& type, double x_mm, double y_mm, double theta_deg,
+                                const std::string& aspect) {
+  return {
+      {"id", 1}, {"type", type}, {"aspect", aspect}, {"q", {{"x_mm", x_mm}, {"y_mm", y_mm}, {"theta_deg", theta_deg}}}};
+}
+
+std::vector<std::string> contact_names(const nlohmann::ordered_json& answer) {
+  std::vector<std::string> all;
+  for (const nlohmann::ordered_json& contact : answer.at("contacts")) {
+    all.push_back(contact.at("type").get<std::string>() + " " + contact.at("moving").dump() + " " +
+                  contact.at("fixed").dump());
+  }
+  std::sort(all.begin(), all.end());
+  return all;
 }
 
 Folder::Folder() {

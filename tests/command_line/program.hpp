@@ -3,6 +3,7 @@
 
 #include <sys/types.h>
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,15 @@ struct Said {
 Said run(const std::vector<std::string>& arguments, const std::string& input = "");
 // Starts it and sends it the signal after this many milliseconds, if it still runs. code is -signal if it died of one.
 Said run_and_signal(const std::vector<std::string>& arguments, int signal, int after_ms);
+
+// The answers of `query` to these lines, asked at once. Throws where the program says anything else, or not as many.
+std::vector<nlohmann::ordered_json> ask_all(const std::string& problem,
+                                            const std::vector<nlohmann::ordered_json>& questions);
+// A question about one configuration of the centre of mass.
+nlohmann::ordered_json question(const std::string& type, double x_mm, double y_mm, double theta_deg,
+                                const std::string& aspect = "up");
+// An answer's contacts as "VE 4 [0,0]", sorted.
+std::vector<std::string> contact_names(const nlohmann::ordered_json& answer);
 
 // A folder of this test's own, gone afterwards.
 struct Folder {

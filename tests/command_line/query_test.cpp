@@ -4,7 +4,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "program.hpp"
 
@@ -33,37 +32,14 @@ struct Problem : Folder {
   std::string file = path + "/plate.json";
 
   std::vector<Json> ask_all(const std::vector<Json>& questions) const {
-    std::string input;
-    for (const Json& question : questions) input += question.dump() + "\n";
-    const Said said = run({"query", file}, input);
-    CHECK(said.code == 0);
-    CHECK(said.err.empty());
-    std::vector<Json> answers;
-    std::istringstream stream(said.out);
-    for (std::string line; std::getline(stream, line);) answers.push_back(Json::parse(line));
-    REQUIRE(answers.size() == questions.size());
-    return answers;
+    return formotion::program::ask_all(file, questions);
   }
   Json ask(const Json& question) const { return ask_all({question}).front(); }
 };
 
-Json question(const std::string& type, double x, double y, double theta, const std::string& aspect = "up") {
-  return {{"id", 1}, {"type", type}, {"aspect", aspect}, {"q", {{"x_mm", x}, {"y_mm", y}, {"theta_deg", theta}}}};
-}
 Json within(Json question, double tolerance) {
   question["tolerance_mm"] = tolerance;
   return question;
-}
-
-// "VE 4 [0,0]", sorted.
-std::vector<std::string> names(const Json& answer) {
-  std::vector<std::string> all;
-  for (const Json& contact : answer.at("contacts")) {
-    all.push_back(contact.at("type").get<std::string>() + " " + contact.at("moving").dump() + " " +
-                  contact.at("fixed").dump());
-  }
-  std::sort(all.begin(), all.end());
-  return all;
 }
 
 using Names = std::vector<std::string>;
@@ -115,7 +91,7 @@ TEST_CASE("contacts have the numbers of the file, however the outlines run") {
   };
   for (std::size_t i = 0; i < answers.size(); ++i) {
     CAPTURE(i, answers[i].dump());
-    CHECK(names(answers[i]) == expected[i]);
+    CHECK(contact_names(answers[i]) == expected[i]);
   }
   const Json& pin = answers[2].at("contacts")[0];
   CHECK(pin.at("point_mm")[0].get<double>() == Approx(300));
@@ -125,14 +101,15 @@ TEST_CASE("contacts have the numbers of the file, however the outlines run") {
 
 TEST_CASE("a larger tolerance finds contacts that are not there yet") {
   const Problem problem;
-  CHECK(names(problem.ask(question("contacts", 0, 6.01, 0))).empty());
-  CHECK(names(problem.ask(within(question("contacts", 0, 6.01, 0), 0.02))) == Names{"VE 0 [0,0]", "VE 4 [0,0]"});
+  CHECK(contact_names(problem.ask(question("contacts", 0, 6.01, 0))).empty());
+  CHECK(contact_names(problem.ask(within(question("contacts", 0, 6.01, 0), 0.02))) ==
+        Names{"VE 0 [0,0]", "VE 4 [0,0]"});
 }
 
 TEST_CASE("along the wall a part slides with what friction leaves of the drive, against a pin it rests") {
   const Problem problem;
   const Json sliding = problem.ask(question("motion", 0, 6, 0));
-  CHECK(names(sliding) == Names{"VE 0 [0,0]", "VE 4 [0,0]"});
+  CHECK(contact_names(sliding) == Names{"VE 0 [0,0]", "VE 4 [0,0]"});
   REQUIRE(sliding.at("motions").size() == 1);
   const Json& motion = sliding["motions"][0];
   CHECK(motion.at("twist")[0].get<double>() == Approx(std::cos(M_PI / 6) - 0.2 * 0.5));

@@ -266,6 +266,59 @@ TEST_CASE("Scenes turned with gravity move alike") {
   CHECK(aslant.part().theta_rad - angle == Approx(upright.part().theta_rad).margin(0.02));
 }
 
+TEST_CASE("A part that settles in a vee ends on its bottom whatever the friction and the table") {
+  ShakenScene scene;
+  scene.part = block(-5, -5, 5, 5);
+  scene.nest = {{{{-30, -5}, {30, -5}, {30, 20}, {20, 20}, {0, 0}, {-20, 20}, {-30, 20}}, {}}};
+  scene.friction = 0.9;  // would hold it where it lies
+  scene.table = table_of(3, 40, 0.4);
+  const Configuration end = settled(scene, {2, 12, kTurn / 8 + 0.3});
+  // Closed form: the centre of a square of 10 mm is 5 sqrt 2 over the bottom of a right-angled vee.
+  CHECK(end.x_mm == Approx(0).margin(0.02));
+  CHECK(end.y_mm == Approx(5 * std::numbers::sqrt2).margin(0.02));
+  CHECK(std::remainder(end.theta_rad - kTurn / 8, kTurn / 4) == Approx(0).margin(0.01));
+}
+
+TEST_CASE("A run ends when its part has come to the right place twice in turn") {
+  ShakenScene scene = guided_square(table_of(1.5, 40, 0.2));
+  ShakeOptions options;
+  options.seconds = 2;
+  options.look_every_s = 0.2;
+  int asked = 0;
+  options.is_right = [&](const Configuration& q) {
+    CHECK(q.y_mm == Approx(kLying).margin(0.02));  // sunk to the floor, wherever it was thrown
+    ++asked;
+    return asked != 1 && asked != 3;
+  };
+  const Shaken shaken = shake(scene, {0, kLying, 0}, options);
+  REQUIRE(shaken.right_after_s);
+  CHECK(asked == 5);  // no, yes, no, yes, yes
+  CHECK(*shaken.right_after_s == Approx(1.0).margin(1e-6));
+  CHECK_FALSE(shaken.left_after_s);
+
+  asked = 10;
+  const ShakenShare all = share_that_leaves(scene, {0, kLying, 0}, 3, options);
+  CHECK(all.right == 3);
+  CHECK(all.left == 0);
+  CHECK(all.share == 1);
+  CHECK(all.last_seconds == Approx(0.4).margin(1e-6));
+  options.is_right = [](const Configuration&) { return false; };
+  CHECK(share_that_leaves(scene, {0, kLying, 0}, 2, options).right == 0);
+}
+
+TEST_CASE("Looking whether a part is right does not move it") {
+  const ShakenScene scene = cluttered(0.3, table_of(3, 50, 0.4));
+  ShakeOptions options;
+  options.seconds = 0.5;
+  const Shaken plain = shake(scene, {0, 20, 1}, options);
+  options.look_every_s = 0.1;
+  options.is_right = [](const Configuration&) { return false; };
+  const Shaken looked_at = shake(scene, {0, 20, 1}, options);
+  CHECK(plain.last.x_mm == looked_at.last.x_mm);
+  CHECK(plain.last.y_mm == looked_at.last.y_mm);
+  CHECK(plain.last.theta_rad == looked_at.last.theta_rad);
+}
+
 TEST_CASE("Shares come with the intervals of Wilson") {
   ShakenScene scene;
   scene.part = block(-5, -5, 5, 5);
@@ -284,4 +337,11 @@ TEST_CASE("Shares come with the intervals of Wilson") {
   const ShakenShare none = share_that_leaves(scene, {0, 5, 0}, 0, options);
   CHECK(none.low == 0);
   CHECK(none.high == 1);
+  // Where the interval ends, the score test's statistic is z: (p - q)^2 = z^2 q (1 - q) / n.
+  const double z = 1.959963984540054;
+  for (const int count : {1, 4, 7}) {
+    const ShareInterval interval = wilson_95(count, 8);
+    for (const double q : {interval.low, interval.high})
+      CHECK((count / 8.0 - q) * (count / 8.0 - q) == Approx(z * z * q * (1 - q) / 8));
+  }
 }

@@ -1,9 +1,11 @@
 #include "applications/assembly/assembly_problem.hpp"
 
+#include <algorithm>
 #include <set>
 #include <stdexcept>
 
 #include "applications/assembly/judge.hpp"
+#include "applications/assembly/residuals.hpp"
 #include "applications/shared/judging.hpp"
 #include "applications/shared/used_variables.hpp"
 
@@ -28,16 +30,28 @@ std::vector<Topology> topologies_of(const AssemblySpec& spec) {
   return topologies;
 }
 
+// Chamfers alone need no residuals. With dampers, whose histories are short, they are not worth what they cost
+// (docs/assembly.md).
+bool has_residuals(const AssemblySpec& spec) {
+  if (spec.support.damper) return false;
+  const auto is_force = [](const std::string& name) { return AssemblyResiduals::has(name) && name != "chamfer_mm"; };
+  return std::any_of(spec.objectives.begin(), spec.objectives.end(),
+                     [&](const Objective& o) { return is_force(o.name); }) ||
+         std::any_of(spec.bounds.begin(), spec.bounds.end(), [&](const Bound& b) { return is_force(b.metric); });
+}
+
 }  // namespace
 
 struct AssemblyProblem::Model {
   AssemblySpec spec;
   std::vector<Topology> topologies;
+  std::unique_ptr<AssemblyResiduals> residuals;
 };
 
 AssemblyProblem::AssemblyProblem(AssemblySpec spec) : model_(std::make_unique<Model>()) {
   model_->topologies = topologies_of(spec);
   model_->spec = std::move(spec);
+  if (has_residuals(model_->spec)) model_->residuals = std::make_unique<AssemblyResiduals>(*this);
 }
 AssemblyProblem::~AssemblyProblem() = default;
 
@@ -50,6 +64,8 @@ Score AssemblyProblem::score(const Candidate& candidate, Memory*) const {
   return score_of(model_->spec, judge(model_->spec, candidate.topology, all_values(*this, candidate), false),
                   objective);
 }
+
+const SmoothProblem* AssemblyProblem::smooth() const { return model_->residuals.get(); }
 
 AssemblyEvaluation AssemblyProblem::evaluate(int topology, std::span<const double> values) const {
   return judge(model_->spec, topology, values, true).evaluation;

@@ -45,6 +45,7 @@ class AssemblyProblem final : public Problem {
   std::span<const Topology> topologies() const override;
   std::span<const Objective> objectives() const override;
   Score score(const Candidate& candidate, Memory* memory = nullptr) const override;
+  const SmoothProblem* smooth() const override;  // springs, where forces or work matter
 
   const AssemblySpec& spec() const;
 

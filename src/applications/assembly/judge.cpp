@@ -1,8 +1,10 @@
 #include "applications/assembly/judge.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numbers>
 
 #include "analysis/insertion/exclusion.hpp"
@@ -20,11 +22,13 @@ StartResult started(const InsertionTask& task, double x_mm, double y_mm, double 
   return {x_mm, y_mm, theta_rad, insert(task, start_with_errors(task, x_mm, y_mm, theta_rad), kNoPath)};
 }
 
-std::vector<StartResult> grid(const InsertionTask& task, const StartsSpec& starts, int count) {
+// at(x, y, theta): the result of a start.
+template <class At>
+std::vector<StartResult> grid(const StartsSpec& starts, int count, const At& at) {
   std::vector<StartResult> results;
   for (const double theta : values_of(starts.theta_rad, count)) {
     for (const double y : values_of(starts.y_mm, std::min(count, 3))) {
-      for (const double x : values_of(starts.x_mm, count)) results.push_back(started(task, x, y, theta));
+      for (const double x : values_of(starts.x_mm, count)) results.push_back(at(x, y, theta));
     }
   }
   return results;
@@ -40,10 +44,24 @@ struct Peaks {
   }
 };
 
+ProjectedStart projected(const StartResult& start, const Member& member) {
+  const Insertion& insertion = start.insertion;
+  return {member,
+          start.x_mm,
+          start.y_mm,
+          start.theta_rad,
+          insertion.outcome,
+          insertion.history,
+          insertion.peak_axial_n,
+          insertion.peak_lateral_n,
+          insertion.work_nmm};
+}
+
 class DesignJudge {
  public:
-  DesignJudge(const AssemblySpec& spec, int topology, std::span<const double> values, bool in_detail)
-      : spec_(spec), topology_(topology), values_(values), in_detail_(in_detail) {}
+  DesignJudge(const AssemblySpec& spec, int topology, std::span<const double> values, bool in_detail,
+              std::vector<ProjectedStart>* projected)
+      : spec_(spec), topology_(topology), values_(values), in_detail_(in_detail), projected_(projected) {}
 
   Judged run() {
     Judged judged;
@@ -69,34 +87,38 @@ class DesignJudge {
   // Everything that one set of uncertain values gives; what is not a number goes to the evaluation, if it is given.
   Metrics member_metrics(const Member& member, AssemblyEvaluation* evaluation) {
     Metrics metrics;
-    metrics.chamfer_mm = spec_.designs[topology_].chamfer_mm
-                             ? (*spec_.designs[topology_].chamfer_mm)(values_)
-                             : measured_chamfer_mm(joint_of(spec_, topology_, values_), spec_.approach.direction_rad);
+    metrics.chamfer_mm = chamfer_mm(spec_, topology_, values_);
     const std::unique_ptr<Scene> scene = scene_of(spec_, topology_, values_, "up", 0, member);
     if (!scene) return metrics;
-    success(scene->task, metrics, evaluation);
+    success(scene->task, member, metrics, evaluation);
     never(member, metrics, evaluation);
     return metrics;
   }
 
-  void success(const InsertionTask& task, Metrics& metrics, AssemblyEvaluation* evaluation) {
+  void success(const InsertionTask& task, const Member& member, Metrics& metrics, AssemblyEvaluation* evaluation) {
     const StartsSpec& starts = spec_.goal.starts;
     Peaks peaks;
-    const auto at = [&](double x, double y, double theta) {
-      const StartResult result = started(task, x, y, theta);
-      peaks.take(result.insertion);
+    // Boundaries and scaled boxes ask for corners again and again, and for the only start of a box that is a point.
+    std::map<std::array<double, 3>, StartResult> known;
+    const auto at = [&](double x, double y, double theta) -> const StartResult& {
+      const auto [place, is_new] = known.try_emplace({x, y, theta});
+      if (!is_new) return place->second;
+      place->second = started(task, x, y, theta);
+      peaks.take(place->second.insertion);
+      if (projected_ && (evaluation || spec_.robust)) projected_->push_back(projected(place->second, member));
       ++work_;
-      return StartOutcome{static_cast<int>(result.insertion.outcome), result.insertion.history};
+      return place->second;
     };
-    const StartShares shares = shares_of_starts(starts, static_cast<int>(InsertionOutcome::Assembled), at,
+    const auto outcome_at = [&](double x, double y, double theta) {
+      const Insertion& insertion = at(x, y, theta).insertion;
+      return StartOutcome{static_cast<int>(insertion.outcome), insertion.history};
+    };
+    const StartShares shares = shares_of_starts(starts, static_cast<int>(InsertionOutcome::Assembled), outcome_at,
                                                 in_detail_ ? RegionOptions{} : search_region_options());
     if (evaluation) {
       evaluation->regions = shares.regions;
       evaluation->region_y_mm = shares.y_mm;
-    }
-    if (evaluation) {
-      evaluation->starts = grid(task, starts, in_detail_ ? 5 : 3);
-      for (const StartResult& start : evaluation->starts) peaks.take(start.insertion);
+      evaluation->starts = grid(starts, in_detail_ ? 5 : 3, at);
     }
     metrics.success_fraction = shares.share;
     if (!starts.x_mm.is_single()) metrics.capture_mm = shares.scaled_box * (starts.x_mm.max - starts.x_mm.min) / 2;
@@ -134,7 +156,8 @@ class DesignJudge {
     NeverResult result;
     result.orientation_rad = goal.orientation_rad;
     result.box = starts;
-    const std::vector<StartResult> ends = grid(scene.task, starts, in_detail_ ? 9 : 3);
+    const std::vector<StartResult> ends = grid(
+        starts, in_detail_ ? 9 : 3, [&](double x, double y, double theta) { return started(scene.task, x, y, theta); });
     result.starts = static_cast<int>(ends.size());
     work_ += result.starts;
     result.deepest = *std::max_element(ends.begin(), ends.end(), [](const StartResult& a, const StartResult& b) {
@@ -234,6 +257,7 @@ class DesignJudge {
   int topology_;
   std::span<const double> values_;
   bool in_detail_;
+  std::vector<ProjectedStart>* projected_;
   std::int64_t work_ = 0;
 };
 
@@ -250,8 +274,18 @@ double objective(const Metrics& metrics, const std::string& name) {
   return metrics.work_nmm;
 }
 
-Judged judge(const AssemblySpec& spec, int topology, std::span<const double> values, bool in_detail) {
-  return DesignJudge(spec, topology, values, in_detail).run();
+ProjectedStart projected_start(const InsertionTask& task, const ProjectedStart& start) {
+  return projected(started(task, start.x_mm, start.y_mm, start.theta_rad), start.member);
+}
+
+double chamfer_mm(const AssemblySpec& spec, int topology, std::span<const double> values) {
+  if (const auto& own = spec.designs[static_cast<std::size_t>(topology)].chamfer_mm) return (*own)(values);
+  return measured_chamfer_mm(joint_of(spec, topology, values), spec.approach.direction_rad);
+}
+
+Judged judge(const AssemblySpec& spec, int topology, std::span<const double> values, bool in_detail,
+             std::vector<ProjectedStart>* starts) {
+  return DesignJudge(spec, topology, values, in_detail, starts).run();
 }
 
 }  // namespace formotion::assembly

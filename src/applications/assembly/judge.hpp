@@ -22,11 +22,28 @@ struct Judged {
   double violation = 0;
   std::int64_t work = 0;  // starts projected
 };
-// in_detail: finer regions, proofs and limits, as people want them; else what a search needs.
-Judged judge(const AssemblySpec& spec, int topology, std::span<const double> values, bool in_detail);
+// A start of the goal's box that was projected, and what it took.
+struct ProjectedStart {
+  Member member;  // of the uncertain values it was projected with
+  double x_mm = 0, y_mm = 0, theta_rad = 0;
+  InsertionOutcome outcome = InsertionOutcome::Undecided;
+  std::uint64_t history = 0;
+  double peak_force_n = 0, peak_lateral_force_n = 0, work_nmm = 0;
+};
+
+// Projected again, in another scene.
+ProjectedStart projected_start(const InsertionTask& task, const ProjectedStart& start);
+
+// in_detail: finer regions, proofs and limits, as people want them; else what a search needs. starts: gets those whose
+// worst are the objectives that search sees, in the order of their projection.
+Judged judge(const AssemblySpec& spec, int topology, std::span<const double> values, bool in_detail,
+             std::vector<ProjectedStart>* starts = nullptr);
 
 // The value of an objective; what does not exist counts as the worst one.
 double objective(const Metrics& metrics, const std::string& name);
+
+// Of the design: its own expression, else measured on its shapes.
+double chamfer_mm(const AssemblySpec& spec, int topology, std::span<const double> values);
 
 // The largest extent across the approach of a run of slanted faces of the fixed shapes and the part: more than 3
 // degrees from the approach and from its perpendicular.

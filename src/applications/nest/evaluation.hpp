@@ -70,13 +70,14 @@ struct Filling {
   std::optional<double> drops_per_part;  // none where the right one is never reached
   double right_share = 0;                // of pockets that end with a part that stays
 };
-// Settings of the table, at its frequency: how strong shaking may be for the seat to keep its part by the point mass's
-// bound, and how strong it must be for that bound to lie over every wrong rest's way out.
+// Settings of the table, at its frequency, by the point mass's bound (a rule of thumb for parts): up to which amplitude
+// the seat keeps its part, and from which on every wrong rest can lose its own. The second is necessary, not
+// sufficient: how fast parts leave is not known from heights (docs/nests.md).
 struct ShakingWindow {
   double keeps_up_to_mm = 0;            // amplitude
-  std::optional<double> loses_from_mm;  // none where a wrong rest has no known way out
+  std::optional<double> loses_from_mm;  // amplitude; none where a wrong rest has no known way out
   double throws_mm = 0;                 // at the amplitude as given
-  Filling filling;                      // at the amplitude as given
+  Filling filling;                      // at the amplitude as given, if what can leave does in the end
 };
 
 struct NestEvaluation {

@@ -181,6 +181,13 @@ class DesignJudge {
       const Scene& scene = scene_named(scenes, rest.aspect);
       EscapeBracket bracket = escape(*scene.space, scene.gravity, rest.at, scene.outside, effort_.escape);
       work_ += bracket.cells;
+      // Motions out of wedges need smaller cells than most rests.
+      if (!rest.is_seat && !bracket.upper_mm && std::isfinite(bracket.lower_mm)) {
+        EscapeOptions finer = effort_.escape;
+        finer.least_cell_mm /= 5;
+        bracket = escape(*scene.space, scene.gravity, rest.at, scene.outside, finer);
+        work_ += bracket.cells;
+      }
       rest.escape_low_mm = bracket.lower_mm;
       rest.escape_high_mm = bracket.upper_mm;
       rest.why = bracket.why;
