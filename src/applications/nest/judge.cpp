@@ -271,11 +271,15 @@ class DesignJudge {
     const ImpactLaw law = impact_law(spec_, values_, seated);
     for (StartResult& start : evaluation.starts) {
       const Configuration from = start_at(start);
-      start.is_sure = surely_captured(*seated.space, seated.gravity, seat, rise, from, options);
+      // Of orientations that are the same the nearest.
+      const double period = 2 * std::numbers::pi / seated.symmetry;
+      Configuration at = seat;
+      at.theta_rad += period * std::round((from.theta_rad - at.theta_rad) / period);
+      start.is_sure = surely_captured(*seated.space, seated.gravity, at, rise, from, options);
       if (start.is_sure) continue;
       const auto landed = landing(*seated.space, seated.gravity, from, law);
       start.is_sure =
-          landed && surely_captured(*seated.space, seated.gravity, seat, rise, landed->at, landed->energy_mm, options);
+          landed && surely_captured(*seated.space, seated.gravity, at, rise, landed->at, landed->energy_mm, options);
     }
     evaluation.sure_fraction = share_of(evaluation.starts, [](const StartResult& start) { return start.is_sure; });
   }
