@@ -19,6 +19,7 @@ constexpr double kAside_rad = 1e-4;  // how far slices aside of a rest are
 constexpr double kFarAside = 0.01;   // of the part's reach
 constexpr double kFlat = 1e-3;       // of the part's reach: heights that bend less than this are level
 constexpr double kNoise_mm = 1e-11;
+constexpr double kSolved_mm = 1e-9;  // places of three contacts are off by up to 4e-10 where edges are nearly parallel
 constexpr double kSameAngle_rad = 1e-11;
 constexpr double kRepeat_mm = 1e-12;  // a place found again; others as near may be less exact, and fail
 constexpr double kLeastSine = 1e-3;   // between normals
@@ -67,8 +68,8 @@ struct Tester {
       }
     }
     const double around = sine > 1 ? std::min(kFarAside * reach, room_mm) : 4 * reach * kAside_rad / sine;
-    const double slack = kFlat * reach * kAside_rad * kAside_rad + kNoise_mm;
     for (const double turn : {0.0, -kAside_rad, kAside_rad}) {
+      const double slack = turn == 0 ? kSolved_mm : kFlat * reach * kAside_rad * kAside_rad + kNoise_mm;
       const auto lowest = lowest_within(slice(q.theta_rad + turn), gravity, q.position(), around);
       if (lowest && *lowest < gravity.height_mm(q) - slack) return false;
     }
